@@ -37,9 +37,9 @@ static imp_status request_create(isolated *i, const unsigned char *bytes, size_t
     c->n = count;
     if (status == IMP_STATUS_OK) status = worker_request(i->worker, i, REQUEST_CREATE);
     *why = c->why;
-    i->self = status == IMP_STATUS_OK ? c->self : NULL;
-    memcpy(i->lo, c->lo, sizeof i->lo);
-    memcpy(i->hi, c->hi, sizeof i->hi);
+    i->own.self = status == IMP_STATUS_OK ? c->self : NULL;
+    memcpy(i->own.lo, c->lo, sizeof i->own.lo);
+    memcpy(i->own.hi, c->hi, sizeof i->own.hi);
     i->piece_count = status == IMP_STATUS_OK ? c->pieces : 0;
     worker_leave(i->worker);
     return status;
@@ -51,9 +51,8 @@ static void take_pieces(isolated *i, size_t first, size_t count)
     for (size_t k = 0; k < count; ++k) {
         channel_piece one;
         memcpy(&one, i->worker->channel->bytes + k * sizeof one, sizeof one);
-        isolated *piece = &i->pieces[first + k];
-        *piece =
-            (isolated){.type = i->type, .worker = i->worker, .user = i, .self = unconst(one.self)};
+        isolated_piece *piece = &i->pieces[first + k];
+        *piece = (isolated_piece){.whole = i, .self = unconst(one.self)};
         memcpy(piece->lo, one.lo, sizeof piece->lo);
         memcpy(piece->hi, one.hi, sizeof piece->hi);
     }
@@ -67,7 +66,7 @@ static imp_status request_pieces(isolated *i)
     imp_status status = worker_enter(i->worker, i);
     if (status != IMP_STATUS_OK) return status;
     for (size_t k = 0; k < i->piece_count && status == IMP_STATUS_OK;) {
-        c->self = i->self;
+        c->self = i->own.self;
         c->n = k;
         c->pieces = i->piece_count;
         status = worker_request(i->worker, i, REQUEST_PIECES);
@@ -91,8 +90,8 @@ static imp_status create_pieces(isolated *i)
     if (i->pieces == NULL) return IMP_STATUS_INTERNAL;
     const imp_status status = request_pieces(i);
     if (status == IMP_STATUS_OK && isolate_is_own_piece(i)) {
-        memcpy(i->lo, i->pieces[0].lo, sizeof i->lo);
-        memcpy(i->hi, i->pieces[0].hi, sizeof i->hi);
+        memcpy(i->own.lo, i->pieces[0].lo, sizeof i->own.lo);
+        memcpy(i->own.hi, i->pieces[0].hi, sizeof i->own.hi);
     }
     return status;
 }
@@ -123,7 +122,7 @@ static imp_status create(isolated *i, const imp_value *values, imp_create_error 
     value_bytes_write(values, count, bytes);
     const imp_status status = request_create(i, bytes, size, count, why);
     free(bytes);
-    if (status == IMP_STATUS_OK && i->self == NULL) return IMP_STATUS_INTERNAL;
+    if (status == IMP_STATUS_OK && i->own.self == NULL) return IMP_STATUS_INTERNAL;
     return status == IMP_STATUS_OK ? create_pieces(i) : status;
 }
 
@@ -137,8 +136,8 @@ imp_status isolate_create(isolated *i, const imp_value *values, imp_create_error
 /* There is no one to answer to: the pool keeps what went wrong. */
 static void request_destroy(isolated *i)
 {
-    if (i->self == NULL || worker_enter(i->worker, i) != IMP_STATUS_OK) return;
-    i->worker->channel->work.self = i->self;
+    if (i->own.self == NULL || worker_enter(i->worker, i) != IMP_STATUS_OK) return;
+    i->worker->channel->work.self = i->own.self;
     const imp_status end = worker_request(i->worker, i, REQUEST_DESTROY);
     worker_leave(i->worker);
     if (end == SURFACE_CRASHED || end == SURFACE_HUNG) worker_pool_note(i->pool, i->type, end);

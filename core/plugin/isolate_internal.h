@@ -19,16 +19,22 @@ typedef struct inclusions_ahead {
     channel_inclusion at[CHANNEL_BYTES / sizeof(channel_inclusion)];
 } inclusions_ahead;
 
+/* One surface or map, as the rest of core sees it: what it takes for the plugin's `self`. Meshes
+ * have millions, so that it is small. */
+typedef struct isolated_piece {
+    isolated *whole;     /* whose requests they are */
+    void *self;          /* as the worker knows it; NULL: not created */
+    double lo[3], hi[3]; /* domain; a map: times in [0], span in [1] */
+} isolated_piece;
+
 struct isolated {
+    isolated_piece own; /* the instance itself: first, so that both have one address */
     worker_type type;
     imp_surface_type surface_stand_in; /* one of the two is in use */
     imp_map_type map_stand_in;
     worker_pool *pool;
-    worker *worker;      /* NULL: could not start */
-    void *self;          /* the instance, as the worker knows it; NULL: not created */
-    const void *user;    /* whose requests they are: itself, or what it is a piece of */
-    double lo[3], hi[3]; /* domain; a map: times in [0], span in [1] */
-    isolated *pieces;    /* piece_count of them, unless that breaks the ABI; or NULL */
+    worker *worker;         /* NULL: could not start */
+    isolated_piece *pieces; /* piece_count of them, unless that breaks the ABI; or NULL */
     size_t piece_count;
     inclusions_ahead *ahead; /* of the pieces; NULL: none was asked for yet */
 };
@@ -36,7 +42,7 @@ struct isolated {
 /* Whether the instance is its own only piece: one surface. */
 static inline bool isolate_is_own_piece(const isolated *i)
 {
-    return i->piece_count == 1 && i->pieces != NULL && i->pieces[0].self == i->self;
+    return i->piece_count == 1 && i->pieces != NULL && i->pieces[0].self == i->own.self;
 }
 
 #endif

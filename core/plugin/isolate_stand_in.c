@@ -10,32 +10,41 @@
 #include <string.h>
 
 /* The rest of core sees an instance that never changes; the channel of its worker does. */
-static isolated *stand_in_of(const void *self) { return (isolated *)(uintptr_t)self; }
+static isolated_piece *stand_in_of(const void *self) { return unconst(self); }
 
-static imp_status enter(isolated *i)
+static channel_work *work_of(const isolated_piece *i) { return &i->whole->worker->channel->work; }
+
+static imp_status enter(isolated_piece *i)
 {
-    const imp_status status = worker_enter(i->worker, i->user);
-    if (status == IMP_STATUS_OK) i->worker->channel->work.self = i->self;
+    const imp_status status = worker_enter(i->whole->worker, i->whole);
+    if (status == IMP_STATUS_OK) work_of(i)->self = i->self;
     return status;
 }
 
-static imp_status some_points(isolated *i, size_t n, size_t width, const double *p, double *x,
+static imp_status request(isolated_piece *i, channel_request what)
+{
+    return worker_request(i->whole->worker, i->whole, what);
+}
+
+static void leave(isolated_piece *i) { worker_leave(i->whole->worker); }
+
+static imp_status some_points(isolated_piece *i, size_t n, size_t width, const double *p, double *x,
                               double *error)
 {
-    channel_work *c = &i->worker->channel->work;
+    channel_work *c = work_of(i);
     imp_status status = enter(i);
     if (status != IMP_STATUS_OK) return status;
     c->n = n;
     c->wants_error = error != NULL;
     memcpy(c->p, p, width * n * sizeof *p);
-    status = worker_request(i->worker, i->user, REQUEST_EVAL);
+    status = request(i, REQUEST_EVAL);
     memcpy(x, c->x, 3 * n * sizeof *x);
     if (error != NULL) memcpy(error, c->error, 3 * n * sizeof *error);
-    worker_leave(i->worker);
+    leave(i);
     return status;
 }
 
-static imp_status points(isolated *i, size_t n, size_t width, const double *p, double *x,
+static imp_status points(isolated_piece *i, size_t n, size_t width, const double *p, double *x,
                          double *error)
 {
     imp_status status = IMP_STATUS_OK;
@@ -62,18 +71,18 @@ static imp_status surface_eval_of(const void *self, size_t n, const double *p, d
 static imp_status surface_rate_of(const void *self, const imp_region *region,
                                   imp_rate_matrix *rates)
 {
-    isolated *i = stand_in_of(self);
+    isolated_piece *i = stand_in_of(self);
     imp_status status = enter(i);
     if (status != IMP_STATUS_OK) return status;
-    i->worker->channel->work.region = *region;
-    status = worker_request(i->worker, i->user, REQUEST_RATE);
-    *rates = i->worker->channel->work.rates;
-    worker_leave(i->worker);
+    work_of(i)->region = *region;
+    status = request(i, REQUEST_RATE);
+    *rates = work_of(i)->rates;
+    leave(i);
     return status;
 }
 
 /* Whether the region is the whole domain of the piece, at some times. */
-static bool is_whole(const isolated *piece, const imp_region *region)
+static bool is_whole(const isolated_piece *piece, const imp_region *region)
 {
     return memcmp(piece->lo, region->lo, 2 * sizeof *piece->lo) == 0 &&
            memcmp(piece->hi, region->hi, 2 * sizeof *piece->hi) == 0;
@@ -85,7 +94,7 @@ static imp_status look_ahead(isolated *whole, size_t k, const imp_region *region
     inclusions_ahead *a = whole->ahead;
     channel *with = whole->worker->channel;
     channel_work *c = &with->work;
-    c->self = whole->self;
+    c->self = whole->own.self;
     c->n = k;
     c->pieces = whole->piece_count;
     c->region = *region;
@@ -101,12 +110,12 @@ static imp_status look_ahead(isolated *whole, size_t k, const imp_region *region
 
 /* Takes the model of a piece from those that came ahead. *done false: there is none, ask for it
  * alone. The worker has been entered. */
-static imp_status include_ahead(isolated *piece, const imp_region *region, imp_model model[3],
+static imp_status include_ahead(isolated_piece *piece, const imp_region *region, imp_model model[3],
                                 bool *done)
 {
-    isolated *whole = unconst(piece->user);
+    isolated *whole = piece->whole;
     *done = false;
-    if (whole == piece || !is_whole(piece, region)) return IMP_STATUS_OK;
+    if (&whole->own == piece || !is_whole(piece, region)) return IMP_STATUS_OK;
     const size_t k = (size_t)(piece - whole->pieces);
     if (whole->ahead == NULL) whole->ahead = calloc(1, sizeof *whole->ahead);
     inclusions_ahead *a = whole->ahead;
@@ -127,74 +136,75 @@ static imp_status include_ahead(isolated *piece, const imp_region *region, imp_m
 
 static imp_status surface_include_of(const void *self, const imp_region *region, imp_model model[3])
 {
-    isolated *i = stand_in_of(self);
+    isolated_piece *i = stand_in_of(self);
     imp_status status = enter(i);
     if (status != IMP_STATUS_OK) return status;
     bool done;
     status = include_ahead(i, region, model, &done);
     if (!done) {
-        i->worker->channel->work.self = i->self;
-        i->worker->channel->work.region = *region;
-        status = worker_request(i->worker, i->user, REQUEST_INCLUDE);
-        memcpy(model, i->worker->channel->work.out, 3 * sizeof *model);
+        work_of(i)->self = i->self;
+        work_of(i)->region = *region;
+        status = request(i, REQUEST_INCLUDE);
+        memcpy(model, work_of(i)->out, 3 * sizeof *model);
     }
-    worker_leave(i->worker);
+    leave(i);
     return status;
 }
 
 /* Asks the worker for a net of a surface or a map. */
 static imp_status net_of(const void *self, const imp_region *region, imp_net *net)
 {
-    isolated *i = stand_in_of(self);
+    isolated_piece *i = stand_in_of(self);
     imp_status status = enter(i);
     if (status != IMP_STATUS_OK) return status;
-    i->worker->channel->work.region = *region;
-    i->worker->channel->work.net = *net;
-    status = worker_request(i->worker, i->user, REQUEST_NET);
-    *net = i->worker->channel->work.net;
-    worker_leave(i->worker);
+    work_of(i)->region = *region;
+    work_of(i)->net = *net;
+    status = request(i, REQUEST_NET);
+    *net = work_of(i)->net;
+    leave(i);
     return status;
 }
 
 static imp_status distance_of(const void *self, const imp_model point[4], imp_model *distance)
 {
-    isolated *i = stand_in_of(self);
+    isolated_piece *i = stand_in_of(self);
     imp_status status = enter(i);
     if (status != IMP_STATUS_OK) return status;
-    memcpy(i->worker->channel->work.in, point, 4 * sizeof *point);
-    status = worker_request(i->worker, i->user, REQUEST_DISTANCE);
-    *distance = i->worker->channel->work.out[0];
-    worker_leave(i->worker);
+    memcpy(work_of(i)->in, point, 4 * sizeof *point);
+    status = request(i, REQUEST_DISTANCE);
+    *distance = work_of(i)->out[0];
+    leave(i);
     return status;
 }
 
 static imp_status symmetry_of(const void *self, imp_symmetry *symmetry)
 {
-    isolated *i = stand_in_of(self);
+    isolated_piece *i = stand_in_of(self);
     imp_status status = enter(i);
     if (status != IMP_STATUS_OK) return status;
-    i->worker->channel->work.symmetry = *symmetry;
-    status = worker_request(i->worker, i->user, REQUEST_SYMMETRY);
-    *symmetry = i->worker->channel->work.symmetry;
-    worker_leave(i->worker);
+    work_of(i)->symmetry = *symmetry;
+    status = request(i, REQUEST_SYMMETRY);
+    *symmetry = work_of(i)->symmetry;
+    leave(i);
     return status;
 }
 
 /* Passes the next part of a formula on. *at counts the bytes passed on; *length is that of all. */
-static imp_status formula_part(isolated *i, const imp_text_sink *to, size_t *at, size_t *length)
+static imp_status formula_part(isolated_piece *i, const imp_text_sink *to, size_t *at,
+                               size_t *length)
 {
     imp_status status = enter(i);
     if (status != IMP_STATUS_OK) return status;
-    channel *with = i->worker->channel;
+    channel *with = i->whole->worker->channel;
     with->work.n = *at;
-    status = worker_request(i->worker, i->user, REQUEST_FORMULA);
+    status = request(i, REQUEST_FORMULA);
     *length = with->work.n;
     if (status == IMP_STATUS_OK && *length > *at) {
         const size_t left = *length - *at, count = left < CHANNEL_BYTES ? left : CHANNEL_BYTES;
         to->add(to, (const char *)with->bytes, count);
         *at += count;
     }
-    worker_leave(i->worker);
+    leave(i);
     return status;
 }
 
@@ -207,7 +217,7 @@ static imp_status write_formula_of(const void *self, const imp_text_sink *to)
     return status;
 }
 
-static size_t piece_count_of(const void *self) { return stand_in_of(self)->piece_count; }
+static size_t piece_count_of(const void *self) { return ((const isolated *)self)->piece_count; }
 
 static const void *piece_of(const void *self, size_t k)
 {
@@ -235,38 +245,38 @@ static imp_status map_eval_of(const void *self, size_t n, const double *p, doubl
 
 static imp_status map_rate_of(const void *self, const imp_box4 *box, imp_map_rates *rates)
 {
-    isolated *i = stand_in_of(self);
+    isolated_piece *i = stand_in_of(self);
     imp_status status = enter(i);
     if (status != IMP_STATUS_OK) return status;
-    i->worker->channel->work.box = *box;
-    status = worker_request(i->worker, i->user, REQUEST_RATE);
-    *rates = i->worker->channel->work.map_rates;
-    worker_leave(i->worker);
+    work_of(i)->box = *box;
+    status = request(i, REQUEST_RATE);
+    *rates = work_of(i)->map_rates;
+    leave(i);
     return status;
 }
 
 static imp_status map_apply_of(const void *self, const imp_model in[4], imp_model out[3])
 {
-    isolated *i = stand_in_of(self);
+    isolated_piece *i = stand_in_of(self);
     imp_status status = enter(i);
     if (status != IMP_STATUS_OK) return status;
-    memcpy(i->worker->channel->work.in, in, 4 * sizeof *in);
-    status = worker_request(i->worker, i->user, REQUEST_INCLUDE);
-    memcpy(out, i->worker->channel->work.out, 3 * sizeof *out);
-    worker_leave(i->worker);
+    memcpy(work_of(i)->in, in, 4 * sizeof *in);
+    status = request(i, REQUEST_INCLUDE);
+    memcpy(out, work_of(i)->out, 3 * sizeof *out);
+    leave(i);
     return status;
 }
 
 static imp_status map_rigid_of(const void *self, const imp_model *t, imp_pose *pose)
 {
-    isolated *i = stand_in_of(self);
+    isolated_piece *i = stand_in_of(self);
     imp_status status = enter(i);
     if (status != IMP_STATUS_OK) return status;
-    i->worker->channel->work.in[3] = *t;
-    i->worker->channel->work.pose = *pose;
-    status = worker_request(i->worker, i->user, REQUEST_POSE);
-    *pose = i->worker->channel->work.pose;
-    worker_leave(i->worker);
+    work_of(i)->in[3] = *t;
+    work_of(i)->pose = *pose;
+    status = request(i, REQUEST_POSE);
+    *pose = work_of(i)->pose;
+    leave(i);
     return status;
 }
 
@@ -277,7 +287,7 @@ isolated *isolate_surface(worker_pool *pool, const imp_surface_type *type)
     isolated *i = calloc(1, sizeof *i);
     if (i == NULL) return NULL;
     i->pool = pool;
-    i->user = i;
+    i->own.whole = i;
     i->type.surface = type;
     const bool pieces = IMP_OFFERS(type, piece);
     i->surface_stand_in = (imp_surface_type){
@@ -304,7 +314,7 @@ isolated *isolate_map(worker_pool *pool, const imp_map_type *type)
     isolated *i = calloc(1, sizeof *i);
     if (i == NULL) return NULL;
     i->pool = pool;
-    i->user = i;
+    i->own.whole = i;
     i->type.map = type;
     i->map_stand_in =
         (imp_map_type){.struct_size = sizeof i->map_stand_in,
