@@ -24,6 +24,7 @@ core_base = \
     core/base/arena.c core/base/arena.h \
     core/base/file_text.c core/base/file_text.h \
     core/base/fp_mode.h \
+    core/base/limit_watch.h \
     core/base/place.c core/base/place.h \
     core/base/rounding.h \
     core/base/sized.h \

@@ -126,6 +126,7 @@ imp_code candidates_find(candidate_list *list, imp_scene *scene, const imp_optio
     if (done) code = collect_pairs(&all, &done, error);
     if (done && models) code = collection_use_frames(&all, &done, error);
     if (done) code = collection_make_roots(&all, &done, error);
+    if (all.tree_ended && collection_must_end(&all)) code = IMP_SUCCESS, done = false;
     if (all.boxes != all.at_hand) free(all.boxes);
     free(all.surfaces);
     free(all.sweep);

@@ -33,6 +33,14 @@ static bool plan_of(const collection *all, const surface_view *view, tree_plan *
     return plan->t_start <= plan->t_end;
 }
 
+static bool may_go_on(void *context)
+{
+    const collection *all = context;
+    return !all->limit->is_near(all->limit->context, 0, 0);
+}
+
+limit_watch collection_watch(collection *all) { return (limit_watch){may_go_on, all}; }
+
 /* Makes the trees of some surfaces ahead of their turn. One that fails is made again in its
  * turn. */
 static void make_trees(void *of, size_t task)
@@ -59,7 +67,7 @@ static void work_ahead(collection *all, size_t body, size_t index)
     all->used = all->ahead = 0;
     for (size_t b = body, k = index; b < bodies && all->ahead < SURFACES_A_ROUND;)
         if (k < scene_surface_count(all->scene, b))
-            all->surfaces[all->ahead++] = (surface_ahead){b, k++, {0}};
+            all->surfaces[all->ahead++] = (surface_ahead){b, k++, {.watch = collection_watch(all)}};
         else
             b += 1, k = 0;
     atomic_store(&all->bytes_ahead, 0);
@@ -78,11 +86,12 @@ imp_code collection_make_tree(collection *all, const surface_view *view, candida
 {
     tree_plan plan;
     tree *t;
-    tree_growth growth = {0};
+    tree_growth growth = {.watch = collection_watch(all)};
     *exists = plan_of(all, view, &plan);
     if (!*exists) return IMP_SUCCESS;
     const imp_code code = scene_tree(all->scene, view->body, view->surface, &plan, all->with_roots,
                                      &t, &growth, error);
+    all->tree_ended = growth.ended;
     if (code != IMP_SUCCESS) return code;
     collection_count(all, &growth);
     all->any_lacks_root = all->any_lacks_root || !tree_has_root(t);

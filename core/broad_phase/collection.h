@@ -61,6 +61,7 @@ typedef struct collection {
     uint64_t bytes_checked; /* stats->bytes when limits were last checked */
     size_t boxes_swept;
     bool out_of_memory;
+    bool tree_ended; /* by collection_watch */
     bool with_roots; /* all trees are made with roots */
     bool any_lacks_root;
     root_ahead *roots; /* the missing roots */
@@ -88,6 +89,9 @@ static inline bool collection_may_end(collection *all, size_t pair_size)
     const uint64_t bytes = atomic_load(&all->bytes_ahead);
     return all->limit->is_near(all->limit->context, bytes, pair_size > 0 ? bytes / pair_size : 0);
 }
+
+/* Ends the making of a tree that takes long, in any thread, where collection_must_end is true. */
+limit_watch collection_watch(collection *all);
 
 static inline void collection_count(collection *all, const tree_growth *growth)
 {

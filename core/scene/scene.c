@@ -583,13 +583,14 @@ imp_code scene_tree(imp_scene *scene, size_t body, size_t index, const tree_plan
 {
     member *m = &scene->bodies[body].members[index];
     tree *made;
-    tree_growth own = {0};
+    tree_growth own = {.watch = growth->watch};
     *found = find_tree(atomic_load_explicit(&m->trees, memory_order_acquire), plan);
     if (*found != NULL) return IMP_SUCCESS;
     const surface *s = surface_in_frame(m, plan->left_out, growth);
     if (s == NULL) return error_set_memory(error);
     const imp_code code = with_root ? tree_new(s, plan, &made, &own, error)
                                     : tree_new_without_root(s, plan, &made, &own, error);
+    growth->ended = own.ended;
     if (code != IMP_SUCCESS) return code;
     *found = keep_tree(m, plan, made);
     if (*found == made) growth->nodes += own.nodes, growth->bytes += own.bytes;

@@ -19,7 +19,7 @@ bool imp_scene_is_solid(const imp_scene *scene, size_t body)
 }
 
 FP_APART static imp_code find_closure(const imp_scene *scene, size_t body, double t, double slack,
-                                      imp_facing *facing, const patch_watch *watch,
+                                      imp_facing *facing, const limit_watch *watch,
                                       imp_closure *closure, imp_error *error)
 {
     patches p;
@@ -47,7 +47,7 @@ imp_code imp_scene_get_closure(const imp_scene *scene, size_t body, double t, do
         return error_set(error, IMP_ERROR_USAGE,
                          "t and slack: got %g and %g, must be finite, and slack >= 0", t, slack);
     imp_closure own = {.struct_size = (uint32_t)sizeof own};
-    const patch_watch watch = {go_on, context};
+    const limit_watch watch = {go_on, context};
     const fp_environment environment = fp_environment_enter();
     code = find_closure(scene, body, t, slack, facing, &watch, &own, error);
     fp_environment_leave(&environment);

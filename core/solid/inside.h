@@ -20,7 +20,7 @@ typedef struct inside_search inside_search;
 typedef struct inside_plan {
     imp_scene *scene;
     double gamma, gamma_clear, from, to;
-    const patch_watch *watch;
+    const limit_watch *watch;
 } inside_plan;
 inside_search *inside_new(const inside_plan *plan);
 void inside_free(inside_search *s); /* NULL is none */

@@ -118,7 +118,7 @@ static imp_code part_shells(const solid *s, size_t x, size_t y, bool *apart, boo
     *apart = (double)n * (double)n <= PATCH_PAIRS_MAX;
     for (size_t i = 0; i < n && *apart; ++i) {
         if (s->shells.facing[i].shell != x) continue;
-        *stopped = !patch_watch_goes_on(s->watch);
+        *stopped = !limit_watch_goes_on(s->watch);
         if (*stopped) return IMP_SUCCESS;
         parting w = {s, 0, error};
         piece_of a, b;
@@ -182,7 +182,7 @@ static imp_code is_inside(const solid *s, size_t x, size_t y, nesting *found, bo
     for (size_t i = 0; i < s->patches.count; ++i) {
         if (s->shells.facing[i].shell != x) continue;
         for (int k = 0; k < ROWS * ROWS; ++k) {
-            *stopped = *stopped || !patch_watch_goes_on(s->watch);
+            *stopped = *stopped || !limit_watch_goes_on(s->watch);
             if (code != IMP_SUCCESS || *stopped || c.found != NESTING_UNKNOWN ||
                 c.points >= POINTS_MAX)
                 break;

@@ -3,6 +3,7 @@
 #ifndef CORE_SOLID_PATCHES_H
 #define CORE_SOLID_PATCHES_H
 
+#include "core/base/limit_watch.h"
 #include "core/scene/scene.h"
 #include "core/tree/vec.h"
 
@@ -16,17 +17,6 @@ typedef struct patch {
     imp_place place;
     double lo[2], hi[2]; /* domain of u and v */
 } patch;
-
-/* What ends long computations: asked now and then, whether to go on. */
-typedef struct patch_watch {
-    imp_go_on go_on; /* NULL: always */
-    void *context;
-} patch_watch;
-
-static inline bool patch_watch_goes_on(const patch_watch *w)
-{
-    return w->go_on == NULL || w->go_on(w->context);
-}
 
 typedef struct patches {
     double t;

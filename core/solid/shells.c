@@ -54,7 +54,7 @@ typedef struct joining {
     const edges *e;
     size_t *partner;
     imp_closure *closure;
-    const patch_watch *watch;
+    const limit_watch *watch;
     bool shares_edges; /* more than two patches share an edge */
 } joining;
 
@@ -98,7 +98,7 @@ static bool join_at_point(joining *j, size_t i, int k)
 static void join_along(joining *j, size_t i)
 {
     for (int k = 0; k <= j->e->steps && j->closure->verdict == IMP_CLOSURE_CLOSED; ++k) {
-        if (!patch_watch_goes_on(j->watch))
+        if (!limit_watch_goes_on(j->watch))
             j->closure->verdict = IMP_CLOSURE_STOPPED;
         else if (!join_at_point(j, i, k))
             note_fault(j, IMP_CLOSURE_OPEN, i, k);
@@ -139,7 +139,7 @@ static void number_shells(shells *s, linked *l, size_t count)
     }
 }
 
-static imp_code find_within(shells *s, const patches *p, double slack, const patch_watch *watch,
+static imp_code find_within(shells *s, const patches *p, double slack, const limit_watch *watch,
                             imp_closure *closure, imp_error *error)
 {
     const size_t n = p->count;
@@ -168,7 +168,7 @@ static imp_code find_within(shells *s, const patches *p, double slack, const pat
 
 #define FINE_SLACK 1e-9 /* part of the body's size within which points are the same */
 
-imp_code solid_shells_find(shells *s, const patches *p, double slack, const patch_watch *watch,
+imp_code solid_shells_find(shells *s, const patches *p, double slack, const limit_watch *watch,
                            imp_closure *closure, imp_error *error)
 {
     const double fine = FINE_SLACK * p->size;

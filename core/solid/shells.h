@@ -27,7 +27,7 @@ typedef struct shells {
  * patches keep their edges where a fine slack closes the body. *closure becomes the answer; if it
  * is not CLOSED, shells are known as far as edges were found. Call solid_shells_free in any
  * case. */
-imp_code solid_shells_find(shells *s, const patches *p, double slack, const patch_watch *watch,
+imp_code solid_shells_find(shells *s, const patches *p, double slack, const limit_watch *watch,
                            imp_closure *closure, imp_error *error);
 void solid_shells_free(shells *s);
 

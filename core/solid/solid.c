@@ -16,7 +16,7 @@
 /* --- Creation and destruction ----------------------------------------------------------------- */
 
 imp_code solid_new(const imp_scene *scene, size_t body, double t, double slack,
-                   const patch_watch *watch, solid **made, imp_error *error)
+                   const limit_watch *watch, solid **made, imp_error *error)
 {
     solid *s = calloc(1, sizeof *s);
     *made = s;
@@ -219,7 +219,7 @@ static imp_code find_enclosing(const solid *s, vec3 x, double off, enclosing *ar
     *side = SOLID_OUTSIDE;
     for (size_t k = 0; k < s->shells.count && *side == SOLID_OUTSIDE; ++k) {
         winding_number found;
-        *stopped = !patch_watch_goes_on(s->watch);
+        *stopped = !limit_watch_goes_on(s->watch);
         if (*stopped) return IMP_SUCCESS;
         const imp_code code = solid_wind(s, k, x, off, &found, error);
         if (code != IMP_SUCCESS) return code;

@@ -27,7 +27,7 @@ typedef enum solid_side {
  * within `slack` of each other are one seam. Whether it is closed is only known when asked for
  * sides. Both must outlive it: the scene and the watch. */
 imp_code solid_new(const imp_scene *scene, size_t body, double t, double slack,
-                   const patch_watch *watch, solid **made, imp_error *error);
+                   const limit_watch *watch, solid **made, imp_error *error);
 void solid_free(solid *s); /* NULL is none */
 
 /* Finds the side on which all points lie that are no farther than `off` from x. SOLID_NOT_CLOSED:

@@ -16,7 +16,7 @@ typedef struct solid_box {
 struct solid {
     const imp_scene *scene;
     size_t body;
-    const patch_watch *watch;
+    const limit_watch *watch;
     patches patches;
     double slack;
     bool is_read; /* the following are known */

@@ -18,11 +18,11 @@ typedef struct clearance_search clearance_search;
 /* Checks the options. The watch ends long tests of solid bodies, and must outlive the search.
  * any_pair: there is a pair of surfaces to be tested. */
 imp_code clearance_new(imp_scene *scene, bool any_pair, const imp_options *options,
-                       const imp_clearance_options *asked, const patch_watch *watch,
+                       const imp_clearance_options *asked, const limit_watch *watch,
                        clearance_search **made, imp_error *error);
 /* Makes the same search as `whole` for two bodies alone. `whole` is only read. */
 imp_code clearance_part(const clearance_search *whole, const size_t body[2],
-                        const patch_watch *watch, clearance_search **made, imp_error *error);
+                        const limit_watch *watch, clearance_search **made, imp_error *error);
 bool clearance_is_each(const clearance_search *c);
 double clearance_near(const clearance_search *c);          /* farther pairs are left out; length */
 bool clearance_is_of_all_times(const clearance_search *c); /* false: slices */

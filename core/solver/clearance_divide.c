@@ -69,7 +69,7 @@ static imp_code add_groups(clearance_search *c, imp_error *error)
 }
 
 imp_code clearance_new(imp_scene *scene, bool any_pair, const imp_options *options,
-                       const imp_clearance_options *asked, const patch_watch *watch,
+                       const imp_clearance_options *asked, const limit_watch *watch,
                        clearance_search **made, imp_error *error)
 {
     if (check(asked, error) != IMP_SUCCESS) return IMP_ERROR_USAGE;
@@ -92,7 +92,7 @@ imp_code clearance_new(imp_scene *scene, bool any_pair, const imp_options *optio
 }
 
 imp_code clearance_part(const clearance_search *whole, const size_t body[2],
-                        const patch_watch *watch, clearance_search **made, imp_error *error)
+                        const limit_watch *watch, clearance_search **made, imp_error *error)
 {
     clearance_search *c = calloc(1, sizeof *c);
     if (c == NULL) return error_set_memory(error);

@@ -43,7 +43,7 @@ struct clearance_search {
     size_t tested; /* candidates of the current task that the search for a violation has tested */
     uint64_t turn_from, turn; /* stats->pairs when the turn began; length of a turn in pairs */
     bool takes_turns; /* that search takes long: it alternates with the search for the distance */
-    const patch_watch *watch;
+    const limit_watch *watch;
     inside_search *insides; /* NULL: solid bodies were not tested yet */
     bool inside_unknown;    /* undecided for some bodies at the current task's start */
     bool known_outside;     /* no body is inside another at the next task's start */

@@ -18,7 +18,7 @@ static bool limit_is_far(void *context)
     return !query->watch_ended;
 }
 
-void query_begin_watch(imp_query *query) { query->watch = (patch_watch){limit_is_far, query}; }
+void query_begin_watch(imp_query *query) { query->watch = (limit_watch){limit_is_far, query}; }
 
 bool query_may_be_inside(const imp_query *query)
 {

@@ -35,7 +35,7 @@ struct imp_query {
     clearance_search *clearance; /* NULL: the earliest contact is sought, as follows */
     impact impact;
     size_t candidates_tested; /* how many candidate pairs have been tested */
-    patch_watch watch;        /* ends what is asked about solid bodies when a limit comes */
+    limit_watch watch;        /* ends what is asked about solid bodies when a limit comes */
     double step_from[2];      /* seconds spent before this step; of the clock when it began */
     bool watch_ended;         /* a limit came */
     inside_search *insides;   /* NULL: not begun */

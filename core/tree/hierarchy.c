@@ -117,7 +117,11 @@ enum { PIECE = 3 };
 typedef struct building {
     hierarchy *h;
     const cluster_bound *pieces;
+    const limit_watch *watch;
+    bool ended; /* by the watch: clusters are not halved any more */
 } building;
+
+enum { PIECES_PER_LOOK = 1 << 12 }; /* taken, or ordered at once, before the watch is asked again */
 
 static bool is_before(const spot *x, const spot *y, int axis)
 {
@@ -171,11 +175,13 @@ static int longest_axis(const spot *spots, size_t count)
 
 /* Makes the cluster of `count` pieces, count >= 2. Its halves have the same number of pieces, so
  * that the depth is the logarithm of that number. */
-static cluster *build(const building *b, spot *spots, size_t count)
+static cluster *build(building *b, spot *spots, size_t count)
 {
     cluster *made = &b->h->clusters[b->h->used++];
     const size_t half[2] = {count / 2, count - count / 2};
     const cluster_bound *bounds[2];
+    if (count >= PIECES_PER_LOOK && !b->ended) b->ended = !limit_watch_goes_on(b->watch);
+    if (b->ended) return made;
     select_half(spots, count, half[0], longest_axis(spots, count));
     made->of = b->h;
     for (int side = 0; side < 2; ++side) {
@@ -191,23 +197,28 @@ static cluster *build(const building *b, spot *spots, size_t count)
 
 /* --- Hierarchies ------------------------------------------------------------------------------ */
 
-static imp_code fill(hierarchy *h, const surface *s, cluster_bound *pieces, spot *spots,
-                     imp_error *error)
+/* *ended: the watch ended it, and the clusters mean nothing. */
+static imp_code fill(hierarchy *h, const surface *s, const limit_watch *watch,
+                     cluster_bound *pieces, spot *spots, bool *ended, imp_error *error)
 {
     for (size_t k = 0; k < h->count; ++k) {
+        *ended = (k + 1) % PIECES_PER_LOOK == 0 && !limit_watch_goes_on(watch);
+        if (*ended) return IMP_SUCCESS;
         const imp_code code = take_piece(h, s, k, &pieces[k], error);
         if (code != IMP_SUCCESS) return code;
         memcpy(spots[k].at, pieces[k].a, sizeof pieces[k].a);
         spots[k].at[PIECE] = (double)k;
     }
-    build(&(building){h, pieces}, spots, h->count);
+    building b = {.h = h, .pieces = pieces, .watch = watch};
+    build(&b, spots, h->count);
+    *ended = b.ended;
     for (size_t k = 0; k < h->count; ++k) h->order[k] = (uint32_t)spots[k].at[PIECE];
     return IMP_SUCCESS;
 }
 
-/* The caller holds it. */
-static imp_code hierarchy_new(const surface *s, double t_start, double t_end, hierarchy **made,
-                              imp_error *error)
+/* The caller holds it. *made is NULL where the watch ended it. */
+static imp_code hierarchy_new(const surface *s, double t_start, double t_end,
+                              const limit_watch *watch, hierarchy **made, imp_error *error)
 {
     const imp_region times = region_make((double[3]){0, 0, t_start}, (double[3]){0, 0, t_end});
     hierarchy *h = calloc(1, sizeof *h);
@@ -222,15 +233,14 @@ static imp_code hierarchy_new(const surface *s, double t_start, double t_end, hi
     h->clusters = malloc((h->count - 1) * sizeof *h->clusters);
     cluster_bound *pieces = malloc(h->count * sizeof *pieces);
     spot *spots = malloc(h->count * sizeof *spots);
-    imp_code code = h->order == NULL || h->clusters == NULL || pieces == NULL || spots == NULL
-                        ? error_set_memory(error)
-                        : fill(h, s, pieces, spots, error);
+    bool ended = false;
+    const imp_code code = h->order == NULL || h->clusters == NULL || pieces == NULL || spots == NULL
+                              ? error_set_memory(error)
+                              : fill(h, s, watch, pieces, spots, &ended, error);
     free(spots);
     free(pieces);
-    if (code == IMP_SUCCESS)
-        *made = h;
-    else
-        hierarchy_release(h);
+    *made = code == IMP_SUCCESS && !ended ? h : NULL;
+    if (*made == NULL) hierarchy_release(h);
     return code;
 }
 
@@ -263,8 +273,8 @@ static hierarchy *find_kept(instance_shelf *shelf, double t_start, double t_end)
 }
 
 /* Two threads may make it at once; both are equal, and the first one stays. */
-imp_code hierarchy_of(const surface *s, double t_start, double t_end, hierarchy **found,
-                      imp_error *error)
+imp_code hierarchy_of(const surface *s, double t_start, double t_end, const limit_watch *watch,
+                      hierarchy **found, imp_error *error)
 {
     assert(surface_piece_count(s) >= 2);
     instance_shelf *shelf = surface_origin(s, 0)->shelf;
@@ -273,8 +283,8 @@ imp_code hierarchy_of(const surface *s, double t_start, double t_end, hierarchy 
     pthread_mutex_unlock(&shelf->lock);
     if (*found != NULL) return IMP_SUCCESS;
     hierarchy *made = NULL;
-    const imp_code code = hierarchy_new(s, t_start, t_end, &made, error);
-    if (code != IMP_SUCCESS) return code;
+    const imp_code code = hierarchy_new(s, t_start, t_end, watch, &made, error);
+    if (code != IMP_SUCCESS || made == NULL) return code;
     pthread_mutex_lock(&shelf->lock);
     *found = find_kept(shelf, t_start, t_end);
     if (*found == NULL)

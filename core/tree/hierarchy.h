@@ -3,6 +3,7 @@
 #ifndef CORE_TREE_HIERARCHY_H
 #define CORE_TREE_HIERARCHY_H
 
+#include "core/base/limit_watch.h"
 #include "core/surface/surface.h"
 
 /* A bounding volume hierarchy over the pieces of one surface
@@ -32,9 +33,9 @@ typedef struct cluster {
 
 /* Finds or makes the hierarchy over the times t_start..t_end, finite and within the domain, and
  * holds it for the caller. Precondition: `s` has two pieces or more. Errors are those of
- * node_child. Any thread. */
-imp_code hierarchy_of(const surface *s, double t_start, double t_end, hierarchy **found,
-                      imp_error *error);
+ * node_child; *found is NULL where `watch` ended it. Any thread. */
+imp_code hierarchy_of(const surface *s, double t_start, double t_end, const limit_watch *watch,
+                      hierarchy **found, imp_error *error);
 void hierarchy_release(hierarchy *h); /* h may be NULL */
 
 const cluster *hierarchy_root(const hierarchy *h);

@@ -5,6 +5,7 @@
 
 #include <stdatomic.h>
 
+#include "core/base/limit_watch.h"
 #include "core/surface/region.h"
 #include "core/surface/surface.h"
 #include "core/tree/hierarchy.h"
@@ -86,10 +87,12 @@ typedef struct tree_plan {
     size_t left_out;       /* number of the surface's last maps that are not applied */
 } tree_plan;
 
-/* Counts of what calls have made. */
+/* Counts of what calls have made; `watch`, which any thread may ask, ends those that take long. */
 typedef struct tree_growth {
     uint64_t nodes;
     size_t bytes;
+    limit_watch watch;
+    bool ended; /* the call fails because of `watch` */
 } tree_growth;
 
 /* Makes a tree over the surface's whole (u, v) and [t_start, t_end], with its root. `s` must

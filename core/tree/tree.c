@@ -24,9 +24,12 @@ static imp_code make_hierarchy(tree *t, tree_growth *growth, imp_error *error)
 {
     if (surface_piece_count(t->surface) <= 1 || t->pieces != NULL) return IMP_SUCCESS;
     const imp_code code =
-        hierarchy_of(t->surface, t->plan.t_start, t->plan.t_end, &t->pieces, error);
-    if (code == IMP_SUCCESS) growth->bytes += hierarchy_bytes(t->pieces);
-    return code;
+        hierarchy_of(t->surface, t->plan.t_start, t->plan.t_end, &growth->watch, &t->pieces, error);
+    if (code != IMP_SUCCESS) return code;
+    growth->ended = t->pieces == NULL;
+    if (growth->ended) return IMP_ERROR_USAGE; /* without a text: whoever set the watch knows */
+    growth->bytes += hierarchy_bytes(t->pieces);
+    return IMP_SUCCESS;
 }
 
 static node_place place_of_root(const tree *t)

@@ -2,9 +2,11 @@
  * SPDX-License-Identifier: Apache-2.0 */
 #include <config.h>
 
+#include <limits.h>
 #include <math.h>
 #include <string.h>
 
+#include "core/broad_phase/candidates.h"
 #include "core/scene/scene.h"
 #include "core/tree/node.h"
 #include "tests/support/built_plugins.h"
@@ -374,6 +376,87 @@ START_TEST(what_waits_names_a_piece_or_several)
 }
 END_TEST
 
+/* --- Limits ----------------------------------------------------------------------------------- */
+
+enum { ROWS = 66, COLUMNS = 66, LARGE_TEXT = 1 << 20 };
+
+/* A flat mesh of 8450 triangles, and a sphere above it. */
+static imp_scene *large_scene(void)
+{
+    static char text[LARGE_TEXT];
+    FILE *out = fmemopen(text, sizeof text, "w");
+    fprintf(out, "{\"bodies\":[{\"surfaces\":[{\"type\":\"mesh\",\"points\":[");
+    for (int k = 0; k < ROWS * COLUMNS; ++k)
+        fprintf(out, "%s[%d,%d,0]", k > 0 ? "," : "", k % COLUMNS, k / COLUMNS);
+    fprintf(out, "],\"faces\":[");
+    for (int j = 0; j + 1 < ROWS; ++j)
+        for (int i = 0; i + 1 < COLUMNS; ++i) {
+            const int a = COLUMNS * j + i;
+            fprintf(out, "%s[%d,%d,%d],[%d,%d,%d]", a > 0 ? "," : "", a, a + 1, a + COLUMNS, a + 1,
+                    a + COLUMNS + 1, a + COLUMNS);
+        }
+    fprintf(out, "]}]},{\"surfaces\":[{\"type\":\"sphere\",\"center\":[9,9,1.5]}]}]}");
+    ck_assert_int_eq(fclose(out), 0);
+    imp_error error;
+    imp_scene *scene = imp_scene_from_json(registry, text, strlen(text), "test", &error);
+    ck_assert_msg(scene != NULL, "%s", error.text);
+    return scene;
+}
+
+/* A limit that is reached once it was asked for `most` times. */
+typedef struct asked {
+    int count, most;
+} asked;
+
+static bool is_near(void *context, uint64_t bytes, uint64_t pairs)
+{
+    asked *a = context;
+    (void)bytes, (void)pairs;
+    a->count += 1;
+    return a->count > a->most;
+}
+
+static bool is_reached(void *context, uint64_t bytes, uint64_t pairs)
+{
+    const asked *a = context;
+    (void)bytes, (void)pairs;
+    return a->count > a->most;
+}
+
+/* Collects the candidates of a large scene until the limit, and returns how often it was asked. */
+static int collect(int most, bool *complete, uint64_t *nodes)
+{
+    imp_scene *scene = large_scene();
+    const imp_options options = imp_options_default(scene);
+    asked a = {0, most};
+    const candidate_limit limit = {is_reached, is_near, &a};
+    candidate_list list = {0};
+    imp_stats stats = {0};
+    imp_error error;
+    ck_assert_int_eq(candidates_find(&list, scene, &options, 1e-6, true, &limit, &stats, &error),
+                     IMP_SUCCESS);
+    *complete = list.complete;
+    *nodes = stats.nodes;
+    candidates_clear(&list);
+    imp_scene_free(scene);
+    return a.count;
+}
+
+START_TEST(limits_end_the_making_of_a_large_hierarchy)
+{
+    bool complete;
+    uint64_t nodes;
+    const int all = collect(INT_MAX, &complete, &nodes);
+    ck_assert(complete);
+    ck_assert_uint_eq(nodes, 2);
+    ck_assert_int_ge(all, 6); /* two surfaces, twice 4096 pieces, twice halves of 4096 and more */
+    for (int most = 0; most < all; ++most) {
+        ck_assert_int_eq(collect(most, &complete, &nodes), most + 1);
+        ck_assert(!complete);
+    }
+}
+END_TEST
+
 int main(void)
 {
     const TTest *const tests[] = {
@@ -384,6 +467,7 @@ int main(void)
         finer_answers_of_a_mesh_agree_with_those_found_afresh,
         pieces_are_counted_and_asked_one_by_one,
         what_waits_names_a_piece_or_several,
+        limits_end_the_making_of_a_large_hierarchy,
     };
     return suite_main_with("pieces", tests, sizeof tests / sizeof *tests, open_registry,
                            close_registry);
