@@ -62,6 +62,7 @@ examplesdir = $(sdkdocdir)/examples
 dist_examples_DATA = \
     sdk/examples/gear.c \
     sdk/examples/hand_rates.c \
+    sdk/examples/gear_pieces.cc \
     sdk/examples/puddle.cc \
     sdk/examples/seashell.c \
     sdk/examples/twirl.c \

@@ -8,6 +8,8 @@
 
 #include <exception>
 #include <new>
+#include <type_traits>
+#include <utility>
 
 /* Surface types in C++17
  * ======================
@@ -37,6 +39,11 @@
  * A lambda is enough where all parameters are single numbers: impinge::surface_from<shape,
  * where>(rows, texts), with constexpr lambdas shape(const double *numbers, model u, model v, model
  * t) -> point and where(const double *numbers) -> domain.
+ *
+ * A type of many surfaces in one instance has a class for the whole and one for a piece:
+ * impinge::surface_of_pieces<gear, flank>(rows, texts). `gear` has the constructor, and pieces(),
+ * which returns a reference to its array of flanks (size() and [], std::vector for one); `flank`
+ * has domain and formula.
  *
  * Instances are deleted by the host's call of destroy. No exception leaves a callback: one that is
  * thrown in create rejects the parameters with its text, any other is IMP_STATUS_INTERNAL.
@@ -190,17 +197,51 @@ template <class T> struct callbacks {
     }
 };
 
+/* For a class with pieces(). */
+template <class T> struct piece_callbacks {
+    static size_t count(const void *self) noexcept
+    {
+        return static_cast<const T *>(self)->pieces().size();
+    }
+
+    static const void *piece(const void *self, size_t index) noexcept
+    {
+        const auto &piece = static_cast<const T *>(self)->pieces()[index];
+        return &piece;
+    }
+};
+
+/* The type whose instances are Made, and whose other callbacks get a Shape. */
+template <class Made, class Shape, size_t Rows>
+constexpr imp_surface_type surface_type_(const imp_parameter (&rows)[Rows], const texts &say)
+{
+    using made = callbacks<Made>;
+    using shape = callbacks<Shape>;
+    imp_surface_type type = imp_surface_value_(
+        imp_type_value_<imp_surface_type>(say.name, rows, Rows, made::create, made::destroy),
+        shape::domain_of, shape::eval, shape::rate, shape::include);
+    type.summary = say.summary;
+    type.equation = say.equation;
+    type.example = say.example;
+    return type;
+}
+
 /* The type of a class, which a lambda may complete with more callbacks. */
 template <class T, size_t Rows>
 constexpr imp_surface_type surface_of(const imp_parameter (&rows)[Rows], const texts &say)
 {
-    using calls = callbacks<T>;
-    imp_surface_type type = imp_surface_value_(
-        imp_type_value_<imp_surface_type>(say.name, rows, Rows, calls::create, calls::destroy),
-        calls::domain_of, calls::eval, calls::rate, calls::include);
-    type.summary = say.summary;
-    type.equation = say.equation;
-    type.example = say.example;
+    return surface_type_<T, T>(rows, say);
+}
+
+/* The type of a class whose instances have pieces. */
+template <class Whole, class Piece, size_t Rows>
+constexpr imp_surface_type surface_of_pieces(const imp_parameter (&rows)[Rows], const texts &say)
+{
+    static_assert(std::is_lvalue_reference<decltype(std::declval<const Whole &>().pieces())>::value,
+                  "pieces() must return a reference to what the instance keeps");
+    imp_surface_type type = surface_type_<Whole, Piece>(rows, say);
+    type.piece_count = piece_callbacks<Whole>::count;
+    type.piece = piece_callbacks<Whole>::piece;
     return type;
 }
 

@@ -752,6 +752,23 @@ END
     ./same
 }
 
+@test "the gear of two classes in C++ answers as the gear in C does" {
+    g++ -std=c++17 -Wall -Wextra -Wpedantic -Werror -fsyntax-only -I"$prefix/include" \
+        "$prefix/$examples/gear_pieces.cc"
+    impinge build "$prefix/$examples/gear_pieces.cc"
+    impinge build "$prefix/$examples/gear.c"
+    impinge check ./gear_pieces.so --effort 0.05 --require tested
+    answer() {
+        impinge pair "$1 teeth=20 roll=0.5 ! rotate rate=1" --plugin-path . --json \
+            'sphere radius=0.2 center=2,0,0 ! translate velocity=-1,0,0' |
+            jq -c '[.verdict, .t, .a.piece]'
+    }
+    [ "$(answer gear-pieces)" = "$(answer involute-flanks)" ]
+    [[ $(answer gear-pieces) == '["contact",'* ]]
+    run -4 impinge pair 'gear-pieces roll=2' sphere --plugin-path .
+    [[ $output == *"roll: the flanks of a tooth meet before that"* ]]
+}
+
 @test "the gear in Rust answers as the gear in C does, to the last bit" {
     rustc --version >/dev/null 2>&1 || skip 'no rustc'
     local crate=$prefix/share/doc/impinge/sdk/gear-rs
