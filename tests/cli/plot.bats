@@ -52,6 +52,11 @@ has_png() { grep -q '^#define HAVE_LIBPNG 1' "$top_builddir/config.h"; }
     [ "${star%%:*}" -gt "${line%%:*}" ]
     run -0 "$IMPINGE" plot "${passing[@]}" --require 1.1 -o gap.svg
     grep -q '>least 1 at t = 0.5, a and b<' gap.svg && grep -q '>required 1.1<' gap.svg
+    # A low line has its words in the margin, where they hide nothing; a high one has the legend there.
+    run -0 "$IMPINGE" plot "${passing[@]}" --require 0.1 -o low.svg
+    run -0 "$IMPINGE" plot "${passing[@]}" --require 1e9 -o high.svg
+    [ "$(sed -n 's/.* x="\([0-9]*\).*>required 0.1<.*/\1/p' low.svg)" -gt 800 ]
+    [ "$(sed -n 's/.* x="\([0-9]*\).*>required 1e+09<.*/\1/p' high.svg)" -lt 750 ]
     run -0 "$IMPINGE" plot "$left" "$right" --slices 4 -o gap.svg
     run ! grep -q 'least ' gap.svg
     fails 2 '--require must be a finite number greater than 0' "$IMPINGE" plot "$left" "$right" --require 0

@@ -38,6 +38,15 @@ needs_python() {
     [[ $output =~ $answer ]]
 }
 
+@test "without numpy the module names the cure, in one line" {
+    needs_python
+    mkdir empty
+    echo 'raise ModuleNotFoundError("no module", name="numpy")' >empty/numpy.py
+    PYTHONPATH=$PWD/empty:$top_srcdir/sdk/python run -1 "$PYTHON3" -c 'import impinge'
+    [ "${lines[-1]}" = 'ModuleNotFoundError: impinge needs numpy: pip install numpy, or apt-get install python3-numpy' ]
+    [[ $output != *_values.py* ]]
+}
+
 @test "the arm's clearance from Python" {
     needs_python
     PYTHONPATH=$top_srcdir/sdk/python run -0 "$PYTHON3" "$examples/arm.py" "$arm"

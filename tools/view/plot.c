@@ -216,8 +216,8 @@ static double legend_width(const plot *p, const canvas *c)
     return 44 + widest;
 }
 
-/* Words on a white ground that end at x, the baseline at y. */
-static void draw_level_label(const frame *f, canvas *c, double x, double y)
+/* Writes words on a white ground that end at x, the baseline at y. */
+static void draw_level_inside(const frame *f, canvas *c, double x, double y)
 {
     char text[64];
     canvas_fitted(c, 14, f->width - 8, f->plot->level_label, text, sizeof text);
@@ -227,12 +227,24 @@ static void draw_level_label(const frame *f, canvas *c, double x, double y)
     canvas_text_fixed(c, left, y, 14, palette_mark, text);
 }
 
+/* Names the level at `y` right of the frame, where it hides no curve, or inside the frame where the
+ * margin is too narrow or has the legend. */
+static void draw_level_label(const frame *f, canvas *c, double y)
+{
+    const double right = f->x + f->width, left = right + 6;
+    const double legend = f->y + 14 + 24 * (double)f->plot->count;
+    if (y < legend || left + canvas_text_width(c, 14, f->plot->level_label) > c->width - 8)
+        draw_level_inside(f, c, right, y > f->y + 24 ? y - 7 : y + 16);
+    else
+        canvas_text_fixed(c, left, y + 5, 14, palette_mark, f->plot->level_label);
+}
+
 static void draw_level(const frame *f, canvas *c)
 {
     const double y = frame_y(f, f->plot->level), step = 9;
     for (double x = f->x; x + step <= f->x + f->width; x += 2 * step)
         canvas_line(c, (const double[4]){x, y, x + step, y}, 2, (pen){palette_mark, 1.4});
-    draw_level_label(f, c, f->x + f->width, y > f->y + 24 ? y - 7 : y + 16);
+    draw_level_label(f, c, y);
 }
 
 /* Draws text above the frame, as near to x as the name of the vertical axis permits. */

@@ -9,6 +9,12 @@
     print(scene.solve(gamma=1e-6))
 """
 
+try:
+    import numpy as _numpy  # noqa: F401 # asked first, so that the cure is named
+except ModuleNotFoundError as missing:
+    raise ModuleNotFoundError("impinge needs numpy: pip install numpy, or apt-get install python3-numpy",
+                              name=missing.name) from None
+
 from . import _library
 from .batching import batch
 from ._mesh import Mesh
