@@ -33,15 +33,17 @@ core_base = \
     core/base/unconst.h
 
 core_surface = \
-    core/surface/carried.h \
+    core/surface/carried.c core/surface/carried.h \
     core/surface/formula_text.c core/surface/formula_text.h \
     core/surface/instance.c core/surface/instance.h \
     core/surface/region.c core/surface/region.h \
+    core/surface/slip.h core/surface/slip_center.c \
     core/surface/surface.c core/surface/surface.h \
     core/surface/surface_distance.c \
     core/surface/surface_include.c core/surface/surface_internal.h \
     core/surface/surface_motion.c core/surface/surface_net.c core/surface/surface_pose.c \
-    core/surface/surface_orbit.c core/surface/surface_rate.c \
+    core/surface/surface_orbit.c core/surface/surface_pair_slip.c \
+    core/surface/surface_rate.c core/surface/surface_slip.c \
     core/surface/surface_symmetry.c
 
 core_tree = \

@@ -7,7 +7,11 @@
 
 /* Centers and axes of symmetries, as maps carry them
  * ==================================================
- * For surface_symmetry.c and surface_orbit.c. */
+ * For surface_symmetry.c, surface_orbit.c and the files of slips. */
+
+/* Lengths of an axis between these have squares that neither underflow nor overflow. */
+#define AXIS_LEAST 0x1p-340
+#define AXIS_MOST 0x1p340
 
 /* A point, and a bound of its distance from where it would be if all maps so far were exact
  * rotations. */
@@ -19,12 +23,25 @@ typedef struct carried {
 /* Asks the type. IMP_STATUS_UNBOUNDED: it has none. */
 imp_status surface_symmetry(const surface *s, imp_symmetry *found);
 
+/* Whether numbers and flags of a symmetry are what a type may answer. */
+bool symmetry_is_sane(const imp_symmetry *found);
+
+/* Returns the rotations that keep the whole surface. IMP_STATUS_UNBOUNDED: none are known, for
+ * instance if it has several pieces, each with its own symmetry. */
+imp_status surface_closed_symmetry(const surface *s, imp_symmetry *found);
+
 /* Computes the pose of the surface's map k, and *d >= |R^T R - 1|, which is at most 1/2. */
 imp_status carried_pose(const surface *s, size_t k, const imp_region *times, imp_pose *pose,
                         double *d);
 
 /* Moves the point by the map of this pose and d. */
 void carried_push(const imp_pose *pose, double d, carried *x);
+
+/* Moves the point back by R^T, the map's transposed turn. */
+void carried_pull(const imp_pose *pose, double d, carried *x);
+
+/* Moves the point back by R^-1 instead, and takes its error into the coordinates. */
+void carried_pull_truly(const imp_pose *pose, double d, carried *x);
 
 /* Turns a direction by the map of this pose, whose turn is an exact rotation. */
 void carried_turn(const imp_pose *pose, imp_model way[3]);

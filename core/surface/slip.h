@@ -1,0 +1,57 @@
+/* SPDX-FileCopyrightText: The Impinge authors
+ * SPDX-License-Identifier: Apache-2.0 */
+#ifndef CORE_SURFACE_SLIP_H
+#define CORE_SURFACE_SLIP_H
+
+#include "core/surface/carried.h"
+#include "core/surface/region.h"
+
+/* How far a surface moves along another, but for motions of the other within itself
+ * =================================================================================
+ * For surface_slip.c, slip_center.c and surface_pair_slip.c. */
+
+typedef struct slip_input {
+    const surface *a, *b;
+    size_t a_maps, b_maps;   /* number of maps, without the common last ones */
+    size_t a_still, b_still; /* how many first maps are taken at one moment, `then` */
+    imp_region then;
+    imp_symmetry found;    /* of b */
+    const imp_model *bare; /* a before its maps */
+} slip_input;
+
+/* The symmetry's center, and the end of its axis if the axis matters, in a's coordinates before its
+ * maps; and bounds for points of a. */
+typedef struct slip_place {
+    carried feature[2];
+    double off; /* error of a's points in b's coordinates before its maps; length */
+    double far; /* >= distance of a's points from the center; length */
+} slip_place;
+
+/* Computes the symmetry's center and axis at these times, in a's coordinates, without the bounds
+ * for points. */
+imp_status slip_locate(const slip_input *q, const imp_region *times, slip_place *x);
+
+/* Computes *slip, given the symmetry; INFINITY if the motion leaves the symmetry. */
+imp_status slip_find(const slip_input *q, const imp_region *times, double *slip);
+
+/* Chooses the center of a symmetry across a line, which may be any point of the plane: the one that
+ * moves least, since a fixed point has the tightest bound. */
+imp_status slip_choose_center(slip_input *q, const imp_region *times);
+
+static inline imp_region slip_at_times(const imp_region *r, double from, double to)
+{
+    const double lo[3] = {r->lo[0], r->lo[1], from}, hi[3] = {r->hi[0], r->hi[1], to};
+    return region_make(lo, hi);
+}
+
+static inline bool slip_moves_rigidly(const surface *s)
+{
+    return s->map_count == 0 || surface_is_rigid(s);
+}
+
+static inline double slip_dot(const double x[3], const double y[3])
+{
+    return x[0] * y[0] + x[1] * y[1] + x[2] * y[2];
+}
+
+#endif
