@@ -164,6 +164,7 @@ tests_unit_test_plugins_SOURCES = tests/unit/test_plugins.c $(type_oracle) \
 tests_unit_test_checker_SOURCES = tests/unit/test_checker.c \
     tests/support/expression_oracle.c tests/support/oracle_number.c
 tests_unit_test_checker_LDADD = tools/libproof.la $(LDADD)
+tests_unit_test_certificates_CPPFLAGS = $(AM_CPPFLAGS) -DPROOF_DOUBLE
 tests_unit_test_certificates_LDADD = tools/libverify.la $(LDADD)
 tests_unit_test_expression_bounds_SOURCES = tests/unit/test_expression_bounds.c \
     tests/support/expression_oracle.c tests/support/oracle_number.c tests/support/judge.c tests/support/sampling.c

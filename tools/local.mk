@@ -7,12 +7,11 @@
 # The interval arithmetic that the checker proves with, for the command and its tests.
 noinst_LTLIBRARIES += tools/libproof.la
 tools_libproof_la_SOURCES = \
-    tools/proof/box.h \
+    tools/proof/box.h tools/proof/double_interval.h \
     tools/proof/branch.c tools/proof/branch.h \
     tools/proof/formula.c tools/proof/formula.h \
     tools/proof/jet.c tools/proof/jet.h \
     tools/proof/jet_functions.c \
-    tools/proof/ld_ends.c \
     tools/proof/ld_interval.c tools/proof/ld_interval.h \
     tools/proof/polynomial.c tools/proof/polynomial.h \
     tools/proof/reader.c \
@@ -242,23 +241,25 @@ else
 EXTRA_DIST += tools/impinge-verify.1
 endif
 tools_impinge_verify_SOURCES = tools/verify/main.c
+tools_impinge_verify_CPPFLAGS = $(AM_CPPFLAGS) -DPROOF_DOUBLE
 tools_impinge_verify_LDADD = tools/libverify.la
 tools_libverify_la_SOURCES = \
     core/common/array.h \
     core/common/sha256.c core/common/sha256.h \
-    tools/proof/box.h \
+    tools/proof/box.h tools/proof/double_interval.h \
     tools/proof/formula.c tools/proof/formula.h \
     tools/proof/jet.c tools/proof/jet.h \
     tools/proof/jet_functions.c \
-    tools/proof/ld_ends.c tools/proof/ld_interval.h \
+    tools/proof/ld_interval.h \
     tools/proof/reader.c \
     tools/proof/steps.h \
     tools/verify/apart.c tools/verify/apart.h \
     tools/verify/enclose.c tools/verify/enclose.h \
     tools/verify/input.c tools/verify/input.h \
-    tools/verify/mpfi_interval.c \
+    tools/verify/mpfi_functions.c \
     tools/verify/statement.c tools/verify/statement.h \
     tools/verify/walk.c tools/verify/walk.h
+tools_libverify_la_CPPFLAGS = $(AM_CPPFLAGS) -DPROOF_DOUBLE
 tools_libverify_la_LIBADD = $(MPFI_LIBS) -lm
 
 # The command for `bench --tune`, whose tuning constants are variables: built by name only. The library

@@ -92,6 +92,16 @@ static const char *word_of(imp_requirement verdict)
     }
 }
 
+/* Part of the points' coordinates that is added to their distance for the verifier's rounding. */
+#define WITHIN_ROUNDING 0x1p-44
+
+static double within_upper(const imp_clearance *answer)
+{
+    double size = answer->upper;
+    for (int i = 0; i < 3; ++i) size += fabs(answer->a.point[i]) + fabs(answer->b.point[i]);
+    return answer->upper + WITHIN_ROUNDING * size;
+}
+
 static imp_code claim_of_clearance(const imp_query *query, proof_claim *claim, bool *contact,
                                    imp_error *error)
 {
@@ -108,7 +118,7 @@ static imp_code claim_of_clearance(const imp_query *query, proof_claim *claim, b
         take_points(claim, &answer.a_violated, &answer.b_violated, answer.t_violated,
                     answer.required);
     else if (answer.has_witness)
-        take_points(claim, &answer.a, &answer.b, answer.t, answer.upper);
+        take_points(claim, &answer.a, &answer.b, answer.t, within_upper(&answer));
     return IMP_SUCCESS;
 }
 

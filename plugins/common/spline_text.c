@@ -6,12 +6,14 @@
 /* The pieces of a spline as formulas. The curve between two keys is that of spline.h, by the values
  * a, b and the slopes p, q at both: with h the step in time and s in [0, 1],
  *
- *   a (1 + 2 s) (1 - s)^2 + b s^2 (3 - 2 s) + h (p s (1 - s)^2 - q s^2 (1 - s)),
+ *   a + (b - a) s^2 (3 - 2 s) + h (p s (1 - s)^2 - q s^2 (1 - s)),
  *
  * or with the second derivatives c, d at both the quintic
  *
- *   a (1 - s)^3 (1 + 3 s + 6 s^2) + b s^3 (10 - 15 s + 6 s^2) + h (p s (1 - s)^3 (1 + 3 s)
- *     - q s^3 (1 - s) (4 - 3 s)) + h^2 / 2 (c s^2 (1 - s)^3 + d s^3 (1 - s)^2). */
+ *   a + (b - a) s^3 (10 - 15 s + 6 s^2) + h (p s (1 - s)^3 (1 + 3 s) - q s^3 (1 - s) (4 - 3 s))
+ *     + h^2 / 2 (c s^2 (1 - s)^3 + d s^3 (1 - s)^2).
+ *
+ * The difference b - a keeps intervals of s from a times nearly all of [0, 1] on either side. */
 
 static void write_name(const spline_text *text, size_t lane, const char *of,
                        const imp_text_sink *to)
@@ -62,33 +64,47 @@ static void write_given(const spline_text *text, size_t lane, int order, size_t 
         text->write_key(text->context, order, key, lane, to);
 }
 
-/* The factors of value, slope and second derivative at both ends; NULL: no such term. */
+/* The factors of the values' difference, and of slope and second derivative at both ends; NULL: no
+ * such term. */
 typedef struct spline_form {
-    const char *factor[3][2];
+    const char *step, *factor[2][2];
 } spline_form;
 
 static const spline_form *form_of(const spline_text *text)
 {
-    static const spline_form line = {{{"(1 - s)", "s"}, {NULL, NULL}, {NULL, NULL}}};
-    static const spline_form cubic = {{{"(1 + 2*s)*(1 - s)^2", "s^2*(3 - 2*s)"},
-                                       {"h*s*(1 - s)^2", "h*s^2*(s - 1)"},
-                                       {NULL, NULL}}};
-    static const spline_form quintic = {{{"(1 - s)^3*(1 + 3*s + 6*s^2)", "s^3*(10 - 15*s + 6*s^2)"},
-                                         {"h*s*(1 - s)^3*(1 + 3*s)", "h*s^3*(s - 1)*(4 - 3*s)"},
+    static const spline_form line = {"s", {{NULL, NULL}, {NULL, NULL}}};
+    static const spline_form cubic = {"s^2*(3 - 2*s)",
+                                      {{"h*s*(1 - s)^2", "h*s^2*(s - 1)"}, {NULL, NULL}}};
+    static const spline_form quintic = {"s^3*(10 - 15*s + 6*s^2)",
+                                        {{"h*s*(1 - s)^3*(1 + 3*s)", "h*s^3*(s - 1)*(4 - 3*s)"},
                                          {"h^2/2*s^2*(1 - s)^3", "h^2/2*s^3*(1 - s)^2"}}};
     return text->of->kinked ? &line : text->orders == 2 ? &quintic : &cubic;
+}
+
+/* Writes a + (b - a)*F for the values a and b at both ends. */
+static void write_values(const spline_text *text, size_t lane, size_t piece, const char *factor,
+                         const imp_text_sink *to)
+{
+    write_given(text, lane, 0, piece, to);
+    imp_add_text(to, " + ((");
+    write_given(text, lane, 0, piece + 1, to);
+    imp_add_text(to, ") - (");
+    write_given(text, lane, 0, piece, to);
+    imp_add_text(to, "))*");
+    imp_add_text(to, factor);
 }
 
 static void write_lane(const spline_text *text, size_t piece, size_t lane, const imp_text_sink *to)
 {
     const spline_form *form = form_of(text);
     write_name(text, lane, " = ", to);
-    for (int order = 0; order < 3 && form->factor[order][0] != NULL; ++order)
+    write_values(text, lane, piece, form->step, to);
+    for (int order = 1; order < 3 && form->factor[order - 1][0] != NULL; ++order)
         for (size_t end = 0; end < 2; ++end) {
-            imp_add_text(to, order + (int)end > 0 ? " + (" : "(");
+            imp_add_text(to, " + (");
             write_given(text, lane, order, piece + end, to);
             imp_add_text(to, ")*");
-            imp_add_text(to, form->factor[order][end]);
+            imp_add_text(to, form->factor[order - 1][end]);
         }
     imp_add_text(to, "; ");
 }

@@ -203,12 +203,12 @@ static bool point_of(const statement *s, size_t chain_index, jet *room, const do
 {
     const place of = {s, &s->chains[chain_index], 0, s->chains[chain_index].count - 1, room};
     const box3 where = {{p[0], p[1], p[2]}, {p[0], p[1], p[2]}};
-    jet out[3];
+    jet out[3], same[3];
     split unused;
-    if (enclose(&of, &where, out, &unused) != ENCLOSED) return false;
+    if (enclose(&of, &where, p, out, same, &unused) != ENCLOSED) return false;
     for (int i = 0; i < 3; ++i) {
-        if (!(out[i].v.hi - out[i].v.lo < 1e-9L)) return false;
-        x[i] = (double)out[i].v.lo;
+        if (!(out[i].v.hi - out[i].v.lo < 1e-9)) return false;
+        x[i] = out[i].v.lo;
     }
     return true;
 }
@@ -217,7 +217,7 @@ static bool point_of(const statement *s, size_t chain_index, jet *room, const do
  * the next ones to it. */
 static bool is_false(const statement *s, uint64_t *seed)
 {
-    jet *room = malloc(((size_t)s->steps + 1) * sizeof *room);
+    jet *room = malloc((2 * (size_t)s->steps + 1) * sizeof *room);
     double best = INFINITY, at[5] = {0, 0, 0, 0, s->from}, size = 1;
     box3 all[2];
     for (size_t k = 0; k < 2; ++k) {

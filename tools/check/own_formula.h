@@ -14,7 +14,7 @@
 
 typedef struct own_part {
     formula *f;
-    formula_range range[BOX_DIMS]; /* of u, v, t or x, y, z, t */
+    formula_range range[FORMULA_VARIABLES]; /* of u, v, t or x, y, z, t */
 } own_part;
 
 typedef struct own_formula {

@@ -89,7 +89,7 @@ static formula *read_stated(const stated *s, const char *variables, char *fault,
 /* "X; Y; Z", definitions before them. */
 static formula *read_given(const stated *s, const char *given, char *fault, size_t size)
 {
-    formula_range range[BOX_DIMS];
+    formula_range range[FORMULA_VARIABLES];
     const formula_scope scope = scope_of(s, variables_of(s));
     formula *f = formula_read_part(&scope, given, range, fault, size);
     bool is_said = formula_next_part(given) != NULL;
@@ -148,7 +148,7 @@ stated_scope *stated_scope_new(const imp_registry *registry, const imp_type_info
 }
 
 formula *stated_scope_read(const stated_scope *scope, const char *text,
-                           formula_range range[BOX_DIMS], char *fault, size_t size)
+                           formula_range range[FORMULA_VARIABLES], char *fault, size_t size)
 {
     const formula_scope names = scope_of(&scope->from, variables_of(&scope->from));
     return formula_read_part(&names, text, range, fault, size);

@@ -25,7 +25,7 @@ typedef struct stated_scope stated_scope;
 stated_scope *stated_scope_new(const imp_registry *registry, const imp_type_info *type,
                                const char *stage);
 formula *stated_scope_read(const stated_scope *scope, const char *text,
-                           formula_range range[BOX_DIMS], char *fault, size_t size);
+                           formula_range range[FORMULA_VARIABLES], char *fault, size_t size);
 void stated_scope_free(stated_scope *scope);
 
 /* Reads the domain that was stated: "LO,HI; LO,HI" for u and v, and perhaps "; LO,HI" for t; for a

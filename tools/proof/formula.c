@@ -11,14 +11,86 @@
 
 #include "tools/proof/steps.h"
 
+static jet computed(const jet *value, const step *s, int n);
+
+/* Computes the steps that depend on no variable. */
+static void fold(formula *f, jet *value)
+{
+    for (int k = 0; k < f->count; ++k) {
+        step *s = &f->steps[k];
+        bool is_fixed = s->kind != STEP_VARIABLE;
+        for (int i = 0; i < s->count; ++i)
+            is_fixed = is_fixed && f->steps[s->operand[i]].kind == STEP_CONSTANT;
+        if (!is_fixed) continue;
+        value[k] = computed(value, s, 0);
+        *s = (step){.kind = STEP_CONSTANT, .constant = value[k].v};
+    }
+}
+
+/* Drops the steps that no coordinate needs. place[k]: where step k goes. */
+static void drop_unneeded(formula *f, int *place)
+{
+    memset(place, 0, (size_t)f->count * sizeof *place);
+    for (int i = 0; i < 3; ++i) place[f->out[i]] = 1;
+    for (int k = f->count - 1; k >= 0; --k)
+        for (int i = 0; i < f->steps[k].count && place[k] != 0; ++i)
+            place[f->steps[k].operand[i]] = 1;
+    int count = 0;
+    for (int k = 0; k < f->count; ++k) {
+        if (place[k] == 0) continue;
+        step s = f->steps[k];
+        for (int i = 0; i < s.count; ++i) s.operand[i] = place[s.operand[i]];
+        place[k] = count;
+        f->steps[count++] = s;
+    }
+    for (int i = 0; i < 3; ++i) f->out[i] = place[f->out[i]];
+    f->count = count;
+}
+
+static bool is_linear(const formula *f, const step *s)
+{
+    const bool by[2] = {s->count == 2 && f->steps[s->operand[0]].kind == STEP_CONSTANT,
+                        s->count == 2 && f->steps[s->operand[1]].kind == STEP_CONSTANT};
+    return s->kind == STEP_ADD || s->kind == STEP_SUBTRACT || s->kind == STEP_NEGATE ||
+           (s->kind == STEP_MULTIPLY && (by[0] || by[1])) || (s->kind == STEP_DIVIDE && by[1]);
+}
+
+static void mark_narrowed(formula *f)
+{
+    for (int i = 0; i < 3; ++i) f->steps[f->out[i]].is_narrowed = true;
+    for (int k = 0; k < f->count; ++k)
+        for (int i = 0; i < f->steps[k].count && !is_linear(f, &f->steps[k]); ++i)
+            f->steps[f->steps[k].operand[i]].is_narrowed = true;
+    for (int k = 0; k < f->count; ++k)
+        if (f->steps[k].kind == STEP_CONSTANT || f->steps[k].kind == STEP_VARIABLE)
+            f->steps[k].is_narrowed = false;
+}
+
+/* False: memory ran out. */
+static bool shorten(formula *f)
+{
+    jet *value = calloc((size_t)f->count, sizeof *value);
+    int *place = malloc((size_t)f->count * sizeof *place);
+    const bool has_room = value != NULL && place != NULL;
+    if (has_room) {
+        fold(f, value);
+        drop_unneeded(f, place);
+        mark_narrowed(f);
+    }
+    free(value);
+    free(place);
+    return has_room;
+}
+
 /* Makes room for the values of a formula that was read, or frees what is left of one that was
  * not. */
 static formula *finished(formula *f, bool read, char *fault, size_t size)
 {
+    const bool has_room = !read || shorten(f);
     formula *fitting =
         read ? realloc(f, offsetof(formula, steps) + (size_t)f->count * sizeof *f->steps) : NULL;
     if (fitting != NULL) f = fitting;
-    if (read) f->value = calloc((size_t)f->count, sizeof *f->value);
+    if (read && has_room) f->value = calloc((size_t)f->count, sizeof *f->value);
     if (read && f->value != NULL) return f;
     if (f == NULL || read) snprintf(fault, size, "memory ran out");
     formula_free(f);
@@ -33,7 +105,7 @@ formula *formula_read(const formula_scope *scope, const char *const text[3], cha
 }
 
 formula *formula_read_part(const formula_scope *scope, const char *text,
-                           formula_range ranges[BOX_DIMS], char *fault, size_t size)
+                           formula_range ranges[FORMULA_VARIABLES], char *fault, size_t size)
 {
     formula *f = calloc(1, sizeof *f);
     return finished(f, f != NULL && reader_read_part(scope, text, f, ranges, fault, size), fault,
@@ -85,6 +157,8 @@ static jet computed(const jet *value, const step *s, int n)
     switch (s->kind) {
     case STEP_NUMBER:
         return jet_constant(n, ld_interval_of(s->number));
+    case STEP_CONSTANT:
+        return jet_constant(n, s->constant);
     case STEP_PI:
         return jet_constant(n, ld_interval_pi());
     case STEP_E:
@@ -116,6 +190,27 @@ void formula_jets_in(const formula *f, const jet *variables, jet *value, jet out
                                             : computed(value, s, variables[0].n);
     }
     for (int i = 0; i < 3; ++i) out[i] = value[f->out[i]];
+}
+
+void formula_jets_about(const formula *f, const formula_boxes *given, jet *value, jet out[3],
+                        jet out_centre[3])
+{
+    jet *wide = value, *at = value + f->count;
+    for (int k = 0; k < f->count; ++k) {
+        const step *s = &f->steps[k];
+        if (s->kind == STEP_VARIABLE) {
+            wide[k] = given->box[s->operand[0]];
+            at[k] = given->centre[s->operand[0]];
+            continue;
+        }
+        wide[k] = computed(wide, s, given->box[0].n);
+        at[k] = computed(at, s, given->box[0].n);
+        if (s->is_narrowed) jet_narrow(&wide[k], &at[k], given->offset);
+    }
+    for (int i = 0; i < 3; ++i) {
+        out[i] = wide[f->out[i]];
+        out_centre[i] = at[f->out[i]];
+    }
 }
 
 void formula_jets(formula *f, const jet *variables, jet out[3])

@@ -22,6 +22,9 @@
  * functions. The language is that of the types that take formulas as text; `impinge info formula`
  * lists it. */
 
+/* The most that a formula has. */
+enum { FORMULA_VARIABLES = 5 };
+
 typedef struct formula_scope {
     const char *variables; /* a letter each: "uvt" */
     size_t count;          /* constants */
@@ -49,7 +52,7 @@ const char *formula_next_part(const char *text);
 /* Reads the first part of the text, and the ranges of its variables, in their order. NULL: `fault`
  * says why. The caller frees the formula. */
 formula *formula_read_part(const formula_scope *scope, const char *text,
-                           formula_range ranges[BOX_DIMS], char *fault, size_t size);
+                           formula_range ranges[FORMULA_VARIABLES], char *fault, size_t size);
 
 /* x, y, z from jets of the variables. Not thread-safe: the formula stores intermediate values. */
 void formula_jets(formula *f, const jet *variables, jet out[3]);
@@ -58,5 +61,16 @@ void formula_jets(formula *f, const jet *variables, jet out[3]);
 int formula_steps(const formula *f);
 void formula_drop_values(formula *f); /* formula_jets may not be called after it */
 void formula_jets_in(const formula *f, const jet *variables, jet *value, jet out[3]);
+
+/* The variables over a box, at a point of it, and from the point into the box. */
+typedef struct formula_boxes {
+    const jet *box, *centre; /* of the latter no second derivatives are needed */
+    const ld_interval *offset;
+} formula_boxes;
+
+/* Like formula_jets_in, over the box and at the point, with room for twice as many steps. The
+ * values of each step are narrowed by jet_narrow, so that long formulas lose little. */
+void formula_jets_about(const formula *f, const formula_boxes *given, jet *value, jet out[3],
+                        jet out_centre[3]);
 
 #endif

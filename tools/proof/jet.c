@@ -6,33 +6,51 @@
 
 #include <math.h>
 
-jet jet_constant(int n, ld_interval value) { return (jet){.n = n, .v = value}; }
+jet jet_constant(int n, ld_interval value) { return (jet){.n = n, .bends = n, .v = value}; }
 
 jet jet_variable(int n, int j, ld_interval where)
 {
     jet x = jet_constant(n, where);
+    x.on = 1 << j;
     x.d[j] = ld_interval_of(1);
     return x;
+}
+
+/* The first variable after j that x may depend on, or n or more. */
+static int next_of(const jet *x, int j)
+{
+    do ++j;
+    while (j < x->n && !jet_has(x, j));
+    return j;
+}
+
+static int first_of(const jet *x) { return next_of(x, -1); }
+
+static int bends_of(const jet *x, const jet *y)
+{
+    return x->bends < y->bends ? x->bends : y->bends;
 }
 
 /* --- Sums and products ------------------------------------------------------------------------ */
 
 jet jet_neg(const jet *x)
 {
-    jet r = {.n = x->n, .v = ld_interval_neg(x->v)};
-    for (int j = 0; j < x->n; ++j) {
+    jet r = {.n = x->n, .bends = x->bends, .on = x->on, .v = ld_interval_neg(x->v)};
+    for (int j = first_of(&r); j < r.n; j = next_of(&r, j)) {
         r.d[j] = ld_interval_neg(x->d[j]);
-        for (int k = j; k < x->n; ++k) r.h[j][k] = ld_interval_neg(x->h[j][k]);
+        for (int k = j; k < r.bends; k = next_of(&r, k)) r.h[j][k] = ld_interval_neg(x->h[j][k]);
     }
     return r;
 }
 
 jet jet_add(const jet *x, const jet *y)
 {
-    jet r = {.n = x->n, .v = ld_interval_add(x->v, y->v)};
-    for (int j = 0; j < x->n; ++j) {
+    jet r = {
+        .n = x->n, .bends = bends_of(x, y), .on = x->on | y->on, .v = ld_interval_add(x->v, y->v)};
+    for (int j = first_of(&r); j < r.n; j = next_of(&r, j)) {
         r.d[j] = ld_interval_add(x->d[j], y->d[j]);
-        for (int k = j; k < x->n; ++k) r.h[j][k] = ld_interval_add(x->h[j][k], y->h[j][k]);
+        for (int k = j; k < r.bends; k = next_of(&r, k))
+            r.h[j][k] = ld_interval_add(x->h[j][k], y->h[j][k]);
     }
     return r;
 }
@@ -45,10 +63,10 @@ jet jet_sub(const jet *x, const jet *y)
 
 jet jet_scale(const jet *x, ld_interval k)
 {
-    jet r = {.n = x->n, .v = ld_interval_mul(x->v, k)};
-    for (int j = 0; j < x->n; ++j) {
+    jet r = {.n = x->n, .bends = x->bends, .on = x->on, .v = ld_interval_mul(x->v, k)};
+    for (int j = first_of(&r); j < r.n; j = next_of(&r, j)) {
         r.d[j] = ld_interval_mul(x->d[j], k);
-        for (int l = j; l < x->n; ++l) r.h[j][l] = ld_interval_mul(x->h[j][l], k);
+        for (int l = j; l < r.bends; l = next_of(&r, l)) r.h[j][l] = ld_interval_mul(x->h[j][l], k);
     }
     return r;
 }
@@ -65,10 +83,11 @@ static ld_interval product_curvature(const jet *x, const jet *y, int j, int k)
 
 jet jet_mul(const jet *x, const jet *y)
 {
-    jet r = {.n = x->n, .v = ld_interval_mul(x->v, y->v)};
-    for (int j = 0; j < x->n; ++j) {
+    jet r = {
+        .n = x->n, .bends = bends_of(x, y), .on = x->on | y->on, .v = ld_interval_mul(x->v, y->v)};
+    for (int j = first_of(&r); j < r.n; j = next_of(&r, j)) {
         r.d[j] = ld_interval_add(ld_interval_mul(x->d[j], y->v), ld_interval_mul(x->v, y->d[j]));
-        for (int k = j; k < x->n; ++k) r.h[j][k] = product_curvature(x, y, j, k);
+        for (int k = j; k < r.bends; k = next_of(&r, k)) r.h[j][k] = product_curvature(x, y, j, k);
     }
     return r;
 }
@@ -78,10 +97,10 @@ jet jet_mul(const jet *x, const jet *y)
 /* g(x)'' = g'' x' x' + g' x''. What x does not depend on stays 0, however steep g is. */
 static jet composed(const jet *x, const ld_interval g[3])
 {
-    jet r = {.n = x->n, .v = g[0]};
-    for (int j = 0; j < x->n; ++j) {
+    jet r = {.n = x->n, .bends = x->bends, .on = x->on, .v = g[0]};
+    for (int j = first_of(&r); j < r.n; j = next_of(&r, j)) {
         r.d[j] = ld_interval_mul(g[1], x->d[j]);
-        for (int k = j; k < x->n; ++k) {
+        for (int k = j; k < r.bends; k = next_of(&r, k)) {
             const ld_interval both =
                 j == k ? ld_interval_sqr(x->d[j]) : ld_interval_mul(x->d[j], x->d[k]);
             r.h[j][k] =
@@ -118,10 +137,11 @@ jet jet_div(const jet *x, const jet *y)
 /* One of two, or between them: slopes are of either, and where they meet there is a kink. */
 static jet either(const jet *x, const jet *y, ld_interval value)
 {
-    jet r = {.n = x->n, .v = value};
-    for (int j = 0; j < x->n; ++j) r.d[j] = ld_interval_hull(x->d[j], y->d[j]);
-    for (int j = 0; j < x->n; ++j)
-        for (int k = j; k < x->n; ++k)
+    jet r = {.n = x->n, .bends = bends_of(x, y), .on = x->on | y->on, .v = value};
+    for (int j = first_of(&r); j < r.n; j = next_of(&r, j))
+        r.d[j] = ld_interval_hull(x->d[j], y->d[j]);
+    for (int j = first_of(&r); j < r.n; j = next_of(&r, j))
+        for (int k = j; k < r.bends; k = next_of(&r, k))
             if (!ld_interval_is(r.d[j], 0) && !ld_interval_is(r.d[k], 0))
                 r.h[j][k] = ld_interval_entire();
     return r;
@@ -143,7 +163,7 @@ jet jet_max(const jet *x, const jet *y)
 
 static bool is_fixed(const jet *x)
 {
-    for (int j = 0; j < x->n; ++j)
+    for (int j = first_of(x); j < x->n; j = next_of(x, j))
         if (!ld_interval_is(x->d[j], 0)) return false;
     return true;
 }
@@ -175,8 +195,8 @@ static bool may_be_whole(ld_interval k) { return floorl(k.hi) >= k.lo; }
 /* x^k for fixed k, whole or not; else exp(y log x). */
 jet jet_power(const jet *x, const jet *y)
 {
-    const long double k = y->v.lo;
-    if (is_fixed(y) && ld_interval_is(y->v, k) && floorl(k) == k && fabsl(k) < 1e9L)
+    const proof_real k = y->v.lo;
+    if (is_fixed(y) && ld_interval_is(y->v, k) && floorl(k) == k && proof_size(k) < 1e9F)
         return k == 0 ? jet_constant(x->n, ld_interval_of(1)) : whole_power(x, (int)k);
     const ld_interval all = ld_interval_entire();
     if (x->v.lo < 0 && may_be_whole(y->v)) {
@@ -200,7 +220,7 @@ jet jet_length(const jet *const x[], int count)
         sum = jet_add(&sum, &square);
     }
     jet r = jet_apply(jet_sqrt_, &sum);
-    for (int j = 0; j < r.n; ++j) {
+    for (int j = first_of(&r); j < r.n; j = next_of(&r, j)) {
         ld_interval slopes = ld_interval_of(0);
         for (int i = 0; i < count; ++i)
             slopes = ld_interval_add(slopes, ld_interval_sqr(x[i]->d[j]));
@@ -215,12 +235,15 @@ jet jet_angle(const jet *y, const jet *x)
 {
     const jet y2 = jet_apply(jet_sqr_, y), x2 = jet_apply(jet_sqr_, x), r2 = jet_add(&x2, &y2);
     const jet a = jet_div(x, &r2), b = jet_div(y, &r2);
-    jet r = {.n = x->n, .v = ld_interval_angle(y->v, x->v)};
+    jet r = {.n = x->n,
+             .bends = bends_of(x, y),
+             .on = x->on | y->on,
+             .v = ld_interval_angle(y->v, x->v)};
     const bool known = r.v.lo > -INFINITY;
-    for (int j = 0; j < r.n; ++j) {
+    for (int j = first_of(&r); j < r.n; j = next_of(&r, j)) {
         r.d[j] = ld_interval_sub(ld_interval_mul(a.v, y->d[j]), ld_interval_mul(b.v, x->d[j]));
         if (!known) r.d[j] = ld_interval_entire();
-        for (int k = j; k < r.n; ++k) {
+        for (int k = j; k < r.bends; k = next_of(&r, k)) {
             const ld_interval first =
                 ld_interval_add(ld_interval_mul(a.d[k], y->d[j]), ld_interval_mul(a.v, y->h[j][k]));
             const ld_interval second =
@@ -237,10 +260,10 @@ jet jet_copysign(const jet *x, const jet *y)
     const jet size = jet_apply(jet_abs_, x);
     if (y->v.lo >= 0) return size;
     if (y->v.hi < 0) return jet_neg(&size);
-    jet r = {.n = x->n, .v = ld_interval_entire()};
-    for (int j = 0; j < r.n; ++j) r.d[j] = ld_interval_entire();
-    for (int j = 0; j < r.n; ++j)
-        for (int k = j; k < r.n; ++k) r.h[j][k] = ld_interval_entire();
+    jet r = {.n = x->n, .bends = bends_of(x, y), .on = x->on | y->on, .v = ld_interval_entire()};
+    for (int j = first_of(&r); j < r.n; j = next_of(&r, j)) r.d[j] = ld_interval_entire();
+    for (int j = first_of(&r); j < r.n; j = next_of(&r, j))
+        for (int k = j; k < r.bends; k = next_of(&r, k)) r.h[j][k] = ld_interval_entire();
     return r;
 }
 
@@ -248,7 +271,7 @@ jet jet_copysign(const jet *x, const jet *y)
 
 /* At least a x + b x^2 for |x| <= r. Lemma: it is at most |a| |x| + b.hi x^2, which grows with |x|
  * if b.hi >= 0 or 2 |b.hi| r <= |a|, and else is greatest at |x| = |a| / (2 |b.hi|). */
-static long double parabola_upper(ld_interval a, ld_interval b, long double r)
+static proof_real parabola_upper(ld_interval a, ld_interval b, proof_real r)
 {
     const ld_interval slope = ld_interval_of(ld_interval_mag(a)), bend = ld_interval_of(b.hi),
                       end = ld_interval_of(r);
@@ -262,7 +285,8 @@ static long double parabola_upper(ld_interval a, ld_interval b, long double r)
 /* a x + b x^2 */
 static ld_interval parabola(ld_interval a, ld_interval b, ld_interval x)
 {
-    const long double r = ld_interval_mag(x);
+    const proof_real r = ld_interval_mag(x);
+    if (ld_interval_is(b, 0)) return ld_interval_mul(a, x);
     return ld_interval_make(-parabola_upper(a, ld_interval_neg(b), r), parabola_upper(a, b, r));
 }
 
@@ -270,11 +294,11 @@ static ld_interval parabola(ld_interval a, ld_interval b, ld_interval x)
 ld_interval jet_values(const jet *wide, const jet *centre, const ld_interval offset[BOX_DIMS])
 {
     ld_interval first = centre->v, second = centre->v;
-    for (int j = 0; j < wide->n; ++j) {
-        const ld_interval bend = ld_interval_scale(wide->h[j][j], 0.5L);
+    for (int j = first_of(wide); j < wide->n; j = next_of(wide, j)) {
+        const ld_interval bend = ld_interval_scale(wide->h[j][j], 0.5F);
         first = ld_interval_add(first, ld_interval_mul(wide->d[j], offset[j]));
         second = ld_interval_add(second, parabola(centre->d[j], bend, offset[j]));
-        for (int k = j + 1; k < wide->n; ++k) {
+        for (int k = next_of(wide, j); k < wide->n; k = next_of(wide, k)) {
             const ld_interval both = ld_interval_mul(offset[j], offset[k]);
             second = ld_interval_add(second, ld_interval_mul(wide->h[j][k], both));
         }
@@ -286,9 +310,17 @@ ld_interval jet_slopes(const jet *wide, const jet *centre, const ld_interval off
                        int j)
 {
     ld_interval first = centre->d[j];
-    for (int k = 0; k < wide->n; ++k) {
+    for (int k = first_of(wide); k < wide->n; k = next_of(wide, k)) {
         const ld_interval bend = j <= k ? wide->h[j][k] : wide->h[k][j];
         first = ld_interval_add(first, ld_interval_mul(bend, offset[k]));
     }
     return ld_interval_intersect(wide->d[j], first);
+}
+
+void jet_narrow(jet *wide, const jet *centre, const ld_interval offset[BOX_DIMS])
+{
+    const ld_interval values = jet_values(wide, centre, offset);
+    for (int j = first_of(wide); j < wide->n; j = next_of(wide, j))
+        wide->d[j] = jet_slopes(wide, centre, offset, j);
+    wide->v = values;
 }

@@ -10,12 +10,17 @@
  * ============================================================
  * v holds its values, d[j] its derivatives by variable j, h[j][k], j <= k, the second ones. Where
  * it has a kink, d holds all slopes between two points of the box, and h is everything. The
- * derivatives by a variable that the function does not depend on are exactly 0. */
+ * derivatives by a variable that the function does not depend on are exactly 0. Second derivatives
+ * may be left out; then what is computed from the jet has none. */
 
 typedef struct jet {
-    int n; /* variables */
+    int n;     /* variables */
+    int bends; /* n, or 0: second derivatives are left out */
+    int on;    /* bit j: it may depend on variable j; the other derivatives are 0 */
     ld_interval v, d[BOX_DIMS], h[BOX_DIMS][BOX_DIMS];
 } jet;
+
+static inline bool jet_has(const jet *x, int j) { return (x->on >> j & 1) != 0; }
 
 jet jet_constant(int n, ld_interval value);
 jet jet_variable(int n, int j, ld_interval where);
@@ -43,6 +48,9 @@ jet_function jet_sqr_, jet_abs_, jet_sqrt_, jet_cbrt_, jet_exp_, jet_log_, jet_s
  * intersection of three bounds, whose excess shrinks with the first, second and third power of the
  * size of the box. */
 ld_interval jet_values(const jet *box, const jet *centre, const ld_interval offset[BOX_DIMS]);
+
+/* Narrows the values and first derivatives over the box by those bounds. */
+void jet_narrow(jet *wide, const jet *centre, const ld_interval offset[BOX_DIMS]);
 
 /* Range of the function's derivative by variable j, the intersection of two bounds. */
 ld_interval jet_slopes(const jet *box, const jet *centre, const ld_interval offset[BOX_DIMS],

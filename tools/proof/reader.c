@@ -412,12 +412,12 @@ static bool read_item(reader *r, formula_range *ranges)
 }
 
 bool reader_read_part(const formula_scope *scope, const char *text, formula *f,
-                      formula_range ranges[BOX_DIMS], char *fault, size_t size)
+                      formula_range ranges[FORMULA_VARIABLES], char *fault, size_t size)
 {
     reader r = {.scope = scope, .f = f, .fault = fault, .size = size, .text = text, .at = text};
     int coordinates = 0;
     fault[0] = '\0';
-    memset(ranges, 0, BOX_DIMS * sizeof *ranges);
+    memset(ranges, 0, FORMULA_VARIABLES * sizeof *ranges);
     add_variables(&r);
     for (;;) {
         peek(&r);

@@ -10,6 +10,7 @@
 
 typedef enum step_kind {
     STEP_NUMBER,
+    STEP_CONSTANT, /* computed from numbers: in formulas that have been read */
     STEP_PI,
     STEP_E,
     STEP_VARIABLE,
@@ -33,6 +34,8 @@ typedef struct step {
     step_kind kind;
     int operand[3], count; /* earlier steps; of STEP_VARIABLE, its index */
     double number;
+    ld_interval constant;
+    bool is_narrowed; /* by formula_jets_about: it is a coordinate, or what uses it is not linear */
     jet_function *function;
 } step;
 
@@ -47,7 +50,7 @@ bool formula_constant(formula *f, int which, ld_interval *value);
 
 /* Reads one part of a text, as formula_read_part. */
 bool reader_read_part(const formula_scope *scope, const char *text, formula *f,
-                      formula_range ranges[BOX_DIMS], char *fault, size_t size);
+                      formula_range ranges[FORMULA_VARIABLES], char *fault, size_t size);
 
 /* Reads the texts. False: `fault` says why. */
 bool reader_read(const formula_scope *scope, const char *const text[3], formula *f, char *fault,

@@ -7,7 +7,9 @@
 #include <math.h>
 #include <string.h>
 
-enum { U, V, T, DIMS = 5, TIME = 4, DEPTH_MAX = 400 };
+#include "core/common/array.h"
+
+enum { U, V, T, VARIABLES, DEPTH_MAX = 400, REFINEMENTS = 96 };
 
 /* --- Cells ------------------------------------------------------------------------------------ */
 
@@ -64,29 +66,29 @@ bool cell_split(const prover *p, const cell *c, const cut *by, cell half[2])
 
 /* --- Enclosures ------------------------------------------------------------------------------- */
 
-static void compute(const place *of, kept *k)
+static size_t mixed(const place *of, const box3 *where)
 {
-    k->result = enclose(of, &k->where, k->box, &k->divide);
-    if (k->result != ENCLOSED) return;
-    for (int j = 0; j < 3; ++j) k->c[j] = middle(k->where.lo[j], k->where.hi[j]);
-    enclose_at(of, &k->where, k->c, k->centre);
+    uint64_t bits[2 * VARIABLES], sum = (uintptr_t)of->chain + 31 * of->maps + 977 * of->piece;
+    memcpy(bits, where, sizeof bits);
+    for (int j = 0; j < 2 * VARIABLES; ++j)
+        sum = (sum ^ bits[j] ^ bits[j] >> 29) * UINT64_C(0x9e3779b97f4a7c15);
+    return sum >> 32 & (KEPT - 1);
 }
 
-static const kept *look(prover *p, int side, size_t index, const box3 *where)
+/* Encloses a box of a piece, or finds that again; another call may overwrite it. */
+static const kept *look(prover *p, const place *of, const box3 *where)
 {
-    const place of = piece_at(p, side, index);
-    for (int k = 0; k < KEPT; ++k) {
-        const kept *have = &p->kept[side][k];
-        if (have->is_set && have->piece == of.piece &&
-            memcmp(&have->where, where, sizeof *where) == 0)
-            return have;
-    }
-    kept *made = &p->kept[side][p->next[side]++ % KEPT];
-    made->is_set = true;
-    made->piece = of.piece;
-    made->where = *where;
-    compute(&of, made);
-    return made;
+    kept *k = &p->kept[mixed(of, where)];
+    if (k->chain == of->chain && k->piece == of->piece && k->maps == of->maps &&
+        memcmp(&k->where, where, sizeof *where) == 0)
+        return k;
+    k->chain = of->chain;
+    k->piece = of->piece;
+    k->maps = of->maps;
+    k->where = *where;
+    for (int j = 0; j < VARIABLES; ++j) k->c[j] = middle(where->lo[j], where->hi[j]);
+    k->result = enclose(of, where, k->c, k->box, k->centre, &k->divide);
+    return k;
 }
 
 static box3 box_of(const cell *c, int side)
@@ -95,47 +97,20 @@ static box3 box_of(const cell *c, int side)
                   {c->hi[side][U], c->hi[side][V], c->t[1]}};
 }
 
-/* --- One piece and another -------------------------------------------------------------------- */
+/* --- Shadows on an axis ----------------------------------------------------------------------- */
 
-/* Variables of a cell: u and v of A, u and v of B, t. */
-static int variable(int side, int j) { return j == T ? TIME : 2 * side + j; }
+/* Each side's own direction of an axis: n of A, -n of B. A line in time is subtracted, which both
+ * sides have in common, so that it cancels. */
+typedef struct aim {
+    double n[3], slope, mid;
+} aim;
 
-static jet spread(const jet *x, int side)
-{
-    jet y = jet_constant(DIMS, x->v);
-    for (int j = 0; j < 3; ++j) {
-        y.d[variable(side, j)] = x->d[j];
-        for (int k = j; k < 3; ++k) y.h[variable(side, j)][variable(side, k)] = x->h[j][k];
-    }
-    return y;
-}
-
-/* B - A over a cell and at a point of it. */
-typedef struct difference {
-    jet box[3], centre[3];
-    ld_interval offset[DIMS];
-    double half[DIMS];  /* about half of the cell's size, */
-    double width[2][3]; /* and of each side's box: only to choose by */
-} difference;
-
-static void subtract(const kept *const k[2], difference *d)
-{
-    for (int i = 0; i < 3; ++i) {
-        const jet a = spread(&k[0]->box[i], 0), b = spread(&k[1]->box[i], 1);
-        const jet c = spread(&k[0]->centre[i], 0), e = spread(&k[1]->centre[i], 1);
-        d->box[i] = jet_sub(&b, &a);
-        d->centre[i] = jet_sub(&e, &c);
-        d->width[0][i] = (double)(a.v.hi - a.v.lo);
-        d->width[1][i] = (double)(b.v.hi - b.v.lo);
-    }
-    for (int side = 0; side < 2; ++side)
-        for (int j = 0; j < 3; ++j) {
-            const box3 *w = &k[side]->where;
-            d->offset[variable(side, j)] = ld_interval_sub(ld_interval_make(w->lo[j], w->hi[j]),
-                                                           ld_interval_of(k[side]->c[j]));
-            d->half[variable(side, j)] = 0.5 * (w->hi[j] - w->lo[j]);
-        }
-}
+/* n.x - slope (t - mid) over a box of one side. */
+typedef struct shadow {
+    double lo, hi;          /* bounds */
+    double value;           /* at the centre, about */
+    double size[VARIABLES]; /* how much it depends on each variable, about */
+} shadow;
 
 static jet along(const jet x[3], const double n[3])
 {
@@ -147,88 +122,64 @@ static jet along(const jet x[3], const double n[3])
     return sum;
 }
 
-static ld_interval length_of(const ld_interval x[3])
+static double value_of(ld_interval x) { return ld_interval_mid(x); }
+
+static void subtract_line(jet *x, const aim *a, ld_interval t)
 {
-    const ld_interval sum = ld_interval_add(
-        ld_interval_add(ld_interval_sqr(x[0]), ld_interval_sqr(x[1])), ld_interval_sqr(x[2]));
-    return ld_interval_sqrt(sum);
+    const ld_interval slope = ld_interval_of(a->slope);
+    const ld_interval since = ld_interval_sub(t, ld_interval_of(a->mid));
+    x->v = ld_interval_sub(x->v, ld_interval_mul(slope, since));
+    x->d[T] = ld_interval_sub(x->d[T], slope);
+    x->on |= 1 << T;
 }
 
-/* An upper bound of |n| apart. */
-static long double limit_upper(const prover *p, const double n[3])
+/* Dependence on each variable by derivatives, about. No more is shared out among the variables than
+ * what the values vary by; where derivatives have no bounds, it is shared by the variables' widths.
+ */
+static void find_sizes(const jet *over, const jet *at, const double half[VARIABLES], shadow *s)
 {
-    const ld_interval x[3] = {ld_interval_of(n[0]), ld_interval_of(n[1]), ld_interval_of(n[2])};
-    return ld_interval_mul(length_of(x), ld_interval_of(p->apart)).hi;
-}
-
-/* Lemma. |n.(B - A)| <= |n| |B - A|: where n.(B - A) >= |n| apart over the cell, no two points of
- * it are nearer. Returns how much is left of n.(B - A), relative to |n|. */
-static long double margin(const prover *p, const difference *d, const double n[3], jet *over,
-                          jet *at)
-{
-    *over = along(d->box, n);
-    *at = along(d->centre, n);
-    const long double low = jet_values(over, at, d->offset).lo - limit_upper(p, n);
-    return low / (fabsl(n[0]) + fabsl(n[1]) + fabsl(n[2]));
-}
-
-static bool is_axis(const double n[3])
-{
-    const double sum = fabs(n[0]) + fabs(n[1]) + fabs(n[2]);
-    return sum > 0 && sum < INFINITY;
-}
-
-static double value_of(ld_interval x) { return (double)ld_interval_mid(x); }
-
-/* du x dv of one side at the centre, so that it points from A to B. */
-static void normal(const difference *d, int side, double n[3])
-{
-    double u[3], v[3], sign = 0;
-    for (int i = 0; i < 3; ++i) {
-        u[i] = value_of(d->centre[i].d[variable(side, U)]);
-        v[i] = value_of(d->centre[i].d[variable(side, V)]);
+    const double most = over->v.hi - over->v.lo;
+    double sum = 0, width = 0;
+    for (int j = 0; j < VARIABLES; ++j) {
+        s->size[j] = fabs(value_of(at->d[j])) * half[j];
+        for (int k = 0; k < VARIABLES; ++k) {
+            const ld_interval bend = j <= k ? over->h[j][k] : over->h[k][j];
+            if (half[j] > 0 && half[k] > 0)
+                s->size[j] += 0.5 * ld_interval_mag(bend) * half[j] * half[k];
+        }
+        sum += s->size[j];
+        width += half[j];
     }
-    for (int i = 0; i < 3; ++i) {
-        const int j = (i + 1) % 3, k = (i + 2) % 3;
-        n[i] = u[j] * v[k] - u[k] * v[j];
-        sign += n[i] * value_of(d->centre[i].v);
-    }
-    for (int i = 0; i < 3 && sign < 0; ++i) n[i] = -n[i];
+    for (int j = 0; j < VARIABLES && !(sum <= most); ++j)
+        s->size[j] = most * (sum < INFINITY ? s->size[j] / sum : half[j] / width);
 }
 
-/* How much n.(B - A) depends on a variable, about: by its derivatives, and no more than its part,
- * by size, of the values of the sides that it moves, since derivatives may have no bounds. */
-static double dependence(const difference *d, const double n[3], const jet *over, const jet *at,
-                         int j)
+static shadow cast(const kept *k, const aim *a)
 {
-    double size = fabs(value_of(at->d[j])) * d->half[j], most = 0;
-    for (int k = 0; k < DIMS; ++k) {
-        const ld_interval bend = j <= k ? over->h[j][k] : over->h[k][j];
-        const double both = d->half[j] * d->half[k];
-        if (both > 0) size += 0.5 * (double)ld_interval_mag(bend) * both;
+    jet over = along(k->box, a->n), at = along(k->centre, a->n);
+    ld_interval offset[BOX_DIMS];
+    double half[VARIABLES];
+    for (int j = 0; j < VARIABLES; ++j) {
+        const ld_interval all = ld_interval_make(k->where.lo[j], k->where.hi[j]);
+        offset[j] = ld_interval_sub(all, ld_interval_of(k->c[j]));
+        half[j] = 0.5 * (all.hi - all.lo);
     }
-    for (int side = 0; side < 2; ++side)
-        for (int i = 0; i < 3 && (j == TIME || j / 2 == side); ++i)
-            most += fabs(n[i]) * d->width[side][i];
-    if (size <= most) return size;
-    const int of = j == TIME ? 0 : 2 * (j / 2);
-    return most * d->half[j] / (d->half[of] + d->half[of + 1] + d->half[TIME]);
+    subtract_line(&over, a, ld_interval_make(k->where.lo[T], k->where.hi[T]));
+    subtract_line(&at, a, ld_interval_of(k->c[T]));
+    const ld_interval all = jet_values(&over, &at, offset);
+    shadow s = {all.lo, all.hi, value_of(at.v), {0, 0, 0}};
+    find_sizes(&over, &at, half, &s);
+    return s;
 }
 
-/* The variable that n.(B - A) depends on most, for what can be divided, the widest of equals; -1:
- * none. */
-static int widest(const difference *d, const double n[3], const jet *over, const jet *at)
-{
-    int best = -1;
-    double most = -1;
-    for (int j = 0; j < DIMS; ++j) {
-        if (!(d->half[j] > 0)) continue;
-        const double size = dependence(d, n, over, at, j);
-        const bool is_wider = best >= 0 && size == most && d->half[j] > d->half[best];
-        if (is_wider || !(size <= most)) best = j, most = size;
-    }
-    return best;
-}
+/* --- Areas ------------------------------------------------------------------------------------ */
+
+/* A box of a piece of one side, which may be divided while the other side is not. */
+struct area {
+    place of;
+    box3 where;
+    shadow s;
+};
 
 typedef enum outcome { APART, DIVIDE, STUCK } outcome;
 
@@ -240,188 +191,294 @@ static outcome fail(prover *p, const cell *c, double found, const char *why)
     return STUCK;
 }
 
-/* Whether two points, those of the centres, are surely nearer. */
-static bool is_refuted(const prover *p, const difference *d, double *found)
+static const char left_open[] = "a formula leaves open what is there at these times";
+
+static bool add_area(prover *p, int side, const place *of, const box3 *where, const aim *a);
+
+static bool add_halves(prover *p, int side, const place *of, const box3 *where, const aim *a,
+                       const split *by)
 {
-    const ld_interval x[3] = {d->centre[0].v, d->centre[1].v, d->centre[2].v};
-    const ld_interval length = length_of(x);
-    *found = value_of(length);
-    return length.hi < p->apart;
+    box3 half[2] = {*where, *where};
+    half[0].hi[by->along] = half[1].lo[by->along] = by->at;
+    return add_area(p, side, of, &half[0], a) && add_area(p, side, of, &half[1], a);
 }
 
-/* A box that is in no part is divided where one ends. */
-static outcome divide_parts(const kept *k, int side, cut *by)
+/* False: p->why tells. */
+static bool add_area(prover *p, int side, const place *of, const box3 *where, const aim *a)
 {
-    *by = (cut){k->divide.along == T ? 2 : side, k->divide.along, k->divide.at};
-    return DIVIDE;
+    const kept *k = look(p, of, where);
+    if (k->result == ENCLOSED_EMPTY) return true;
+    if (k->result == ENCLOSED_SPLIT)
+        return add_halves(p, side, of, where, a, &(split){k->divide.along, k->divide.at});
+    area *grown = array_reserve(p->areas[side], p->count[side], &p->room[side], sizeof *grown);
+    if (grown != NULL) p->areas[side] = grown;
+    p->why = grown == NULL ? "memory ran out" : left_open;
+    if (grown == NULL || k->result == ENCLOSED_UNSAID) return false;
+    grown[p->count[side]++] = (area){*of, *where, cast(k, a)};
+    return true;
 }
 
-static outcome test_pieces(prover *p, const cell *c, cut *by)
+static box3 area_of(const prover *p, const cell *c, int side, size_t k, place *of)
 {
-    const kept *k[2];
-    difference d;
-    double found;
+    box3 where = box_of(c, side);
+    *of = piece_at(p, side, c->first[side] + k);
+    if (c->count[side] > 1) piece_box(of, &where);
+    return where;
+}
+
+/* Divides an area along what it depends on most. False: it cannot be divided, or p->why tells. */
+static bool divide_area(prover *p, int side, size_t index, const aim *a)
+{
+    const area was = p->areas[side][index];
+    split by = {-1, 0};
+    for (int j = 0; j < VARIABLES; ++j) {
+        const double lo = was.where.lo[j], hi = was.where.hi[j], mid = middle(lo, hi);
+        if (!(lo < mid && mid < hi)) continue;
+        if (by.along < 0 || was.s.size[j] > was.s.size[by.along]) by = (split){j, mid};
+    }
+    if (by.along < 0) return false;
+    p->areas[side][index] = p->areas[side][--p->count[side]];
+    return add_halves(p, side, &was.of, &was.where, a, &by);
+}
+
+/* How far a side reaches in its own direction. */
+typedef struct reach {
+    double bound, value; /* of all boxes, and at their centres, about */
+    size_t worst;        /* the area that has the bound */
+} reach;
+
+static reach reach_of(const prover *p, int side)
+{
+    reach r = {-INFINITY, -INFINITY, 0};
+    for (size_t k = 0; k < p->count[side]; ++k) {
+        const shadow *s = &p->areas[side][k].s;
+        if (!(s->hi <= r.bound)) r.bound = s->hi, r.worst = k;
+        if (s->value > r.value) r.value = s->value;
+    }
+    return r;
+}
+
+/* --- An axis ---------------------------------------------------------------------------------- */
+
+static ld_interval length_of(const ld_interval x[3])
+{
+    const ld_interval sum = ld_interval_add(
+        ld_interval_add(ld_interval_sqr(x[0]), ld_interval_sqr(x[1])), ld_interval_sqr(x[2]));
+    return ld_interval_sqrt(sum);
+}
+
+static bool is_axis(const double n[3])
+{
+    const double sum = fabs(n[0]) + fabs(n[1]) + fabs(n[2]);
+    return sum > 0 && sum < INFINITY;
+}
+
+static void take_aims(prover *p, const cell *c, const double n[3], aim a[2])
+{
+    place of;
+    const box3 where = area_of(p, c, 0, 0, &of);
+    const kept *k = look(p, &of, &where);
+    double slope = 0;
+    for (int i = 0; i < 3 && k->result == ENCLOSED; ++i)
+        slope += n[i] * value_of(k->centre[i].d[T]);
+    if (!(fabs(slope) < INFINITY)) slope = 0;
     for (int side = 0; side < 2; ++side) {
-        const box3 where = box_of(c, side);
-        k[side] = look(p, side, c->first[side], &where);
-        if (k[side]->result == ENCLOSED_EMPTY) return APART;
-        if (k[side]->result == ENCLOSED_SPLIT) return divide_parts(k[side], side, by);
-        if (k[side]->result == ENCLOSED_UNSAID)
-            return fail(p, c, INFINITY, "a formula leaves open what is there at these times");
+        const double sign = side == 0 ? 1 : -1;
+        a[side] =
+            (aim){{sign * n[0], sign * n[1], sign * n[2]}, sign * slope, middle(c->t[0], c->t[1])};
     }
-    subtract(k, &d);
-    if (is_refuted(p, &d, &found)) return fail(p, c, found, "two points of it are nearer");
-    double axes[4][3];
-    memcpy(axes[0], p->axis, sizeof axes[0]);
-    for (int i = 0; i < 3; ++i) axes[1][i] = value_of(d.centre[i].v);
-    normal(&d, 0, axes[2]);
-    normal(&d, 1, axes[3]);
-    long double best = -INFINITY;
-    int wide = -1;
-    for (int n = 0; n < 4; ++n) {
-        jet over, at;
-        if (!is_axis(axes[n])) continue;
-        const long double left = margin(p, &d, axes[n], &over, &at);
-        if (left >= 0) return APART;
-        if (left <= best && wide >= 0) continue;
-        best = left;
-        wide = widest(&d, axes[n], &over, &at);
-    }
-    if (wide < 0)
-        for (int j = 0; j < DIMS; ++j)
-            if (d.half[j] > 0 && (wide < 0 || d.half[j] > d.half[wide])) wide = j;
-    if (wide < 0) return fail(p, c, found, "it is too small to be divided");
-    *by = (cut){wide == TIME ? 2 : wide / 2, wide % 2, NAN};
-    return DIVIDE;
 }
 
-/* --- Many pieces ------------------------------------------------------------------------------ */
+/* What is known of an axis that does not do it, from the undivided pieces. */
+typedef struct trial {
+    double left;                /* what is missing, by what is left over between the centres */
+    double size[2][VARIABLES];  /* the sides' dependence on the variables, if they are single */
+    double width[2], spread[2]; /* of the pieces' bounds and of their centres */
+} trial;
 
-/* Bounds of n.x - slope (t - mid) over pieces of one side. */
-typedef struct support {
-    long double lo, hi;
-    double slope;     /* chosen for the first piece */
-    double middle[2]; /* least and greatest of the values at the pieces' centres */
-} support;
-
-static bool support_box(const prover *p, const place *of, const box3 *where, const double n[3],
-                        double mid, support *s)
+static void take_trial(const prover *p, double limit, trial *tried)
 {
-    kept k = {.where = *where};
-    compute(of, &k);
-    if (k.result == ENCLOSED_EMPTY) return true;
-    if (k.result == ENCLOSED_UNSAID) return false;
-    if (k.result == ENCLOSED_SPLIT) {
-        box3 half[2] = {*where, *where};
-        half[0].hi[k.divide.along] = half[1].lo[k.divide.along] = k.divide.at;
-        return support_box(p, of, &half[0], n, mid, s) && support_box(p, of, &half[1], n, mid, s);
+    const reach a = reach_of(p, 0), b = reach_of(p, 1);
+    const double most = -(a.value + b.value) - limit, low = -(a.bound + b.bound) - limit;
+    tried->left = most > 0 ? low / most : -INFINITY;
+    for (int side = 0; side < 2; ++side) {
+        double lo = INFINITY, least = INFINITY;
+        for (size_t k = 0; k < p->count[side]; ++k) {
+            const shadow *s = &p->areas[side][k].s;
+            lo = proof_smaller(lo, s->lo);
+            least = proof_smaller(least, s->value);
+            memcpy(tried->size[side], s->size, sizeof s->size);
+        }
+        tried->width[side] = (side == 0 ? a.bound : b.bound) - lo;
+        tried->spread[side] = (side == 0 ? a.value : b.value) - least;
     }
-    jet over = along(k.box, n), at = along(k.centre, n);
-    ld_interval offset[BOX_DIMS];
-    for (int j = 0; j < 3; ++j)
-        offset[j] =
-            ld_interval_sub(ld_interval_make(where->lo[j], where->hi[j]), ld_interval_of(k.c[j]));
-    if (isnan(s->slope)) s->slope = value_of(at.d[T]);
-    const ld_interval slope = ld_interval_of(s->slope), from = ld_interval_of(mid);
-    jet line = jet_constant(
-        3, ld_interval_mul(slope,
-                           ld_interval_sub(ld_interval_make(where->lo[T], where->hi[T]), from)));
-    line.d[T] = slope;
-    over = jet_sub(&over, &line);
-    line.v = ld_interval_mul(slope, ld_interval_sub(ld_interval_of(k.c[T]), from));
-    at = jet_sub(&at, &line);
-    const ld_interval all = jet_values(&over, &at, offset);
-    const double value = value_of(at.v);
-    if (!(all.lo >= s->lo)) s->lo = all.lo;
-    if (!(all.hi <= s->hi)) s->hi = all.hi;
-    if (value < s->middle[0]) s->middle[0] = value;
-    if (value > s->middle[1]) s->middle[1] = value;
-    return true;
 }
 
-static bool support_of(const prover *p, const cell *c, int side, const double n[3], support *s)
+/* Bounds lose what they lack, most - low, about as 1 / step where two variables are divided: gives
+ * up where they will lack too much, or cost too much, when they are done. */
+static bool is_hopeless(int step, double low, double most)
 {
-    *s = (support){INFINITY, -INFINITY, NAN, {INFINITY, -INFINITY}};
-    for (size_t k = 0; k < c->count[side]; ++k) {
-        const place of = piece_at(p, side, c->first[side] + k);
-        box3 where = box_of(c, side);
-        if (c->count[side] > 1) piece_box(&of, &where);
-        if (!support_box(p, &of, &where, n, middle(c->t[0], c->t[1]), s)) return false;
-    }
-    return true;
+    const double lacks = (most - low) / most;
+    return step >= REFINEMENTS || (step >= 4 && lacks * step > 2 * REFINEMENTS);
 }
 
-/* Points at the middle of the first, the middle and the last piece, for an axis of centres. */
-static bool centre_of(const prover *p, const cell *c, int side, double x[3])
+/* Lemma. |n.(B - A)| <= |n| |B - A|: where n.(B - A) >= |n| apart over the cell, no two points of
+ * it are nearer. n.A is at most what A reaches along n, and -n.B what B reaches along -n. The sides
+ * are divided one by one, since neither bound depends on the other side. */
+static outcome try_axis(prover *p, const cell *c, const double n[3], trial *tried)
 {
-    double lo[3], hi[3];
-    bool some = false;
+    const ld_interval x[3] = {ld_interval_of(n[0]), ld_interval_of(n[1]), ld_interval_of(n[2])};
+    const double limit = ld_interval_mul(length_of(x), ld_interval_of(p->apart)).hi;
+    aim a[2];
+    take_aims(p, c, n, a);
+    for (int side = 0; side < 2; ++side) {
+        p->count[side] = 0;
+        for (size_t k = 0; k < c->count[side]; ++k) {
+            place of;
+            const box3 where = area_of(p, c, side, k, &of);
+            if (!add_area(p, side, &of, &where, &a[side])) return fail(p, c, INFINITY, p->why);
+        }
+        if (p->count[side] == 0) return APART; /* it does not exist */
+    }
+    take_trial(p, limit, tried);
+    for (int step = 0;; ++step) {
+        const reach r[2] = {reach_of(p, 0), reach_of(p, 1)};
+        const ld_interval sum =
+            ld_interval_add(ld_interval_of(r[0].bound), ld_interval_of(r[1].bound));
+        if (-sum.hi >= limit) return APART;
+        const double most = -(r[0].value + r[1].value) - limit, low = -sum.hi - limit;
+        if (!(most > 0) || is_hopeless(step, low, most)) return DIVIDE;
+        const int side = r[1].bound - r[1].value > r[0].bound - r[0].value;
+        p->why = NULL;
+        if (!divide_area(p, side, r[side].worst, &a[side]))
+            return p->why != NULL ? fail(p, c, INFINITY, p->why) : DIVIDE;
+    }
+}
+
+/* --- A cell ----------------------------------------------------------------------------------- */
+
+/* du x dv of one side at the centre. */
+static void normal(const jet x[3], double n[3])
+{
+    double u[3], v[3];
+    for (int i = 0; i < 3; ++i) u[i] = value_of(x[i].d[U]), v[i] = value_of(x[i].d[V]);
+    for (int i = 0; i < 3; ++i) {
+        const int j = (i + 1) % 3, l = (i + 2) % 3;
+        n[i] = u[j] * v[l] - u[l] * v[j];
+    }
+}
+
+/* The middle of the box around the centres of some pieces, which may not exist. */
+static void centre_of(prover *p, const cell *c, int side, double x[3])
+{
+    double lo[3] = {INFINITY, INFINITY, INFINITY}, hi[3] = {-INFINITY, -INFINITY, -INFINITY};
     const size_t count = c->count[side], step = count > 8 ? count / 8 : 1;
     for (size_t k = 0; k < count; k += step) {
-        const place of = piece_at(p, side, c->first[side] + k);
-        box3 where = box_of(c, side);
-        if (count > 1) piece_box(&of, &where);
-        double at[3];
-        for (int j = 0; j < 3; ++j) at[j] = middle(where.lo[j], where.hi[j]);
-        where.lo[T] = where.hi[T] = at[T] = middle(c->t[0], c->t[1]);
-        for (int j = 0; j < 2; ++j) where.lo[j] = where.hi[j] = at[j];
-        jet out[3];
-        if (enclose_at(&of, &where, at, out) != ENCLOSED) continue;
-        for (int i = 0; i < 3; ++i) {
-            const double v = value_of(out[i].v);
-            lo[i] = some && lo[i] < v ? lo[i] : v;
-            hi[i] = some && hi[i] > v ? hi[i] : v;
+        place of;
+        const box3 where = area_of(p, c, side, k, &of);
+        const kept *at = look(p, &of, &where);
+        for (int i = 0; i < 3 && at->result == ENCLOSED; ++i) {
+            const double v = value_of(at->centre[i].v);
+            if (v < lo[i]) lo[i] = v;
+            if (v > hi[i]) hi[i] = v;
         }
-        some = true;
     }
-    for (int i = 0; i < 3 && some; ++i) x[i] = 0.5 * lo[i] + 0.5 * hi[i];
-    return some;
+    for (int i = 0; i < 3; ++i) x[i] = 0.5 * lo[i] + 0.5 * hi[i];
 }
 
-/* Lemma. n.(B - A) is at least the least of B less the greatest of A, and the difference of their
- * slopes times the time from the middle. */
-static long double margin_of_many(const prover *p, const cell *c, const double n[3],
-                                  const support s[2])
+/* The hint, the direction of the centres, and the normals of single pieces, from A to B. */
+enum { AXES = 4 };
+
+static void find_axes(prover *p, const cell *c, double n[AXES][3])
 {
-    const ld_interval t = ld_interval_sub(ld_interval_make(c->t[0], c->t[1]),
-                                          ld_interval_of(middle(c->t[0], c->t[1])));
-    if (!(s[0].lo <= s[0].hi && s[1].lo <= s[1].hi)) return INFINITY; /* one does not exist */
-    const ld_interval slope =
-        ld_interval_sub(ld_interval_of(s[1].slope), ld_interval_of(s[0].slope));
-    const ld_interval gap = ld_interval_sub(ld_interval_of(s[1].lo), ld_interval_of(s[0].hi));
-    return ld_interval_add(gap, ld_interval_mul(slope, t)).lo - limit_upper(p, n);
+    double x[2][3];
+    memcpy(n[0], p->axis, sizeof n[0]);
+    for (int side = 0; side < 2; ++side) centre_of(p, c, side, x[side]);
+    for (int i = 0; i < 3; ++i) n[1][i] = x[1][i] - x[0][i];
+    for (int side = 0; side < 2; ++side) {
+        double *m = n[2 + side];
+        place of;
+        const box3 where = area_of(p, c, side, 0, &of);
+        const kept *k = look(p, &of, &where);
+        memset(m, 0, sizeof n[0]);
+        if (c->count[side] == 1 && k->result == ENCLOSED) normal(k->centre, m);
+        const double sign = m[0] * n[1][0] + m[1] * n[1][1] + m[2] * n[1][2];
+        for (int i = 0; i < 3 && sign < 0; ++i) m[i] = -m[i];
+    }
 }
 
-static void divide_many(const cell *c, const support s[2], cut *by)
+/* The variable that the shadows depend on most, for what can be divided; the widest of equals.
+ * False: nothing can be divided. */
+static bool widest(const cell *c, const trial *tried, cut *by)
 {
-    const double time = fabs(s[1].slope - s[0].slope) * 0.5 * (c->t[1] - c->t[0]);
-    double size[2];
-    for (int side = 0; side < 2; ++side)
-        size[side] = c->count[side] > 1 ? (double)(s[side].hi - s[side].lo) : -1;
-    const double blur = (double)(s[0].hi - s[0].lo + s[1].hi - s[1].lo) -
-                        (s[0].middle[1] - s[0].middle[0] + s[1].middle[1] - s[1].middle[0]);
+    double most = -1, width = 0;
+    const double time = proof_larger(tried->size[0][T], tried->size[1][T]);
+    for (int side = 0; side < 3; ++side)
+        for (int j = 0; j < (side < 2 ? 2 : 1); ++j) {
+            const double lo = side < 2 ? c->lo[side][j] : c->t[0];
+            const double hi = side < 2 ? c->hi[side][j] : c->t[1];
+            const double here = side < 2 ? tried->size[side][j] : time;
+            if (!(hi > lo) || (!(here > most) && !(here == most && hi - lo > width))) continue;
+            *by = (cut){side, j, NAN};
+            most = here, width = hi - lo;
+        }
+    return width > 0;
+}
+
+/* The side of many pieces with the greater shadow, or time if that blurs shadows. */
+static bool divide_many(const cell *c, const trial *tried, cut *by)
+{
+    double size[2], blur = 0;
+    for (int side = 0; side < 2; ++side) {
+        size[side] = c->count[side] > 1 ? tried->width[side] : -1;
+        blur += tried->width[side] - tried->spread[side];
+    }
     const int larger = size[1] > size[0];
-    if ((time > size[larger] || blur > 2 * size[larger]) && c->t[0] < c->t[1])
-        *by = (cut){2, 0, NAN};
-    else
-        *by = (cut){larger, 0, NAN};
+    const bool is_time = blur > 2 * size[larger] && c->t[0] < c->t[1];
+    *by = (cut){is_time ? 2 : larger, 0, NAN};
+    return true;
 }
 
-static outcome test_many(prover *p, const cell *c, cut *by)
+/* Whether two points, those of the centres, are surely nearer, or a single piece has parts. */
+static outcome look_at_pieces(prover *p, const cell *c, cut *by, double *found)
 {
-    double axes[2][3] = {{p->axis[0], p->axis[1], p->axis[2]}}, x[2][3];
-    const bool some = centre_of(p, c, 0, x[0]) && centre_of(p, c, 1, x[1]);
-    for (int i = 0; i < 3; ++i) axes[1][i] = some ? x[1][i] - x[0][i] : 0;
-    *by = (cut){c->count[0] > 1 ? 0 : 1, 0, NAN};
-    for (int n = 0; n < 2; ++n) {
-        support s[2];
-        if (!is_axis(axes[n])) continue;
-        if (!support_of(p, c, 0, axes[n], &s[0]) || !support_of(p, c, 1, axes[n], &s[1]))
-            return fail(p, c, INFINITY, "a formula leaves open what is there at these times");
-        if (margin_of_many(p, c, axes[n], s) >= 0) return APART;
-        divide_many(c, s, by);
+    ld_interval x[2][3];
+    for (int side = 0; side < 2; ++side) {
+        place of;
+        const box3 where = area_of(p, c, side, 0, &of);
+        const kept *k = look(p, &of, &where);
+        const split *parts = &k->divide;
+        if (k->result == ENCLOSED_EMPTY) return APART;
+        if (k->result == ENCLOSED_UNSAID) return fail(p, c, INFINITY, left_open);
+        *by = (cut){parts->along == T ? 2 : side, parts->along % T, parts->at};
+        if (k->result == ENCLOSED_SPLIT) return DIVIDE;
+        for (int i = 0; i < 3; ++i) x[side][i] = k->centre[i].v;
     }
-    return DIVIDE;
+    for (int i = 0; i < 3; ++i) x[0][i] = ld_interval_sub(x[1][i], x[0][i]);
+    const ld_interval length = length_of(x[0]);
+    *found = value_of(length);
+    by->side = -1;
+    return length.hi < p->apart ? fail(p, c, *found, "two points of it are nearer") : DIVIDE;
+}
+
+static outcome test(prover *p, const cell *c, cut *by)
+{
+    const bool is_single = c->count[0] == 1 && c->count[1] == 1;
+    double n[AXES][3], best = -INFINITY, found = INFINITY;
+    outcome o = is_single ? look_at_pieces(p, c, by, &found) : DIVIDE;
+    if (o != DIVIDE || (is_single && by->side >= 0)) return o;
+    trial tried = {.left = -INFINITY};
+    bool some = is_single ? widest(c, &tried, by) : divide_many(c, &tried, by);
+    find_axes(p, c, n);
+    for (int m = 0; m < AXES; ++m) {
+        if (!is_axis(n[m])) continue;
+        o = try_axis(p, c, n[m], &tried);
+        if (o != DIVIDE) return o;
+        if (!(tried.left > best)) continue;
+        best = tried.left;
+        some = is_single ? widest(c, &tried, by) : divide_many(c, &tried, by);
+    }
+    return some ? DIVIDE : fail(p, c, found, "it is too small to be divided");
 }
 
 /* --- Dividing --------------------------------------------------------------------------------- */
@@ -432,8 +489,7 @@ static bool prove(prover *p, const cell *c, int depth)
     cell half[2];
     if (++p->tests > p->tests_most || depth > DEPTH_MAX)
         return fail(p, c, INFINITY, "it is not proved within the effort allowed"), false;
-    const bool single = c->count[0] == 1 && c->count[1] == 1;
-    const outcome o = single ? test_pieces(p, c, &by) : test_many(p, c, &by);
+    const outcome o = test(p, c, &by);
     if (o != DIVIDE) return o == APART;
     if (!cell_split(p, c, &by, half))
         return fail(p, c, INFINITY, "it is too small to be divided"), false;

@@ -15,12 +15,12 @@ typedef struct cell {
     double t[2];
 } cell;
 
-enum { KEPT = 8 };
+enum { KEPT = 1024 }; /* a power of 2 */
 
-/* An enclosure that was computed last, of one side. */
+/* An enclosure that was computed before. */
 typedef struct kept {
-    bool is_set;
-    size_t piece;
+    const chain *chain; /* NULL: none */
+    size_t piece, maps;
     box3 where;
     enclosed result;
     split divide;
@@ -28,14 +28,17 @@ typedef struct kept {
     jet box[3], centre[3]; /* about the point c */
 } kept;
 
+typedef struct area area;
+
 typedef struct prover {
     place side[2];
     const uint32_t *order[2]; /* NULL: the pieces' own */
     double apart; /* what is to be proved, a little enlarged for maps left out; length */
     unsigned long tests, tests_most; /* of this leaf */
     double axis[3];                  /* hint; 0: none */
-    kept kept[2][KEPT];
-    unsigned next[2];
+    kept *kept;                      /* KEPT of them */
+    area *areas[2];                  /* boxes of either side, to be freed */
+    size_t count[2], room[2];
     cell worst;      /* where it ended, and */
     double found;    /* what was found there: two points so near, or INFINITY: nothing but */
     const char *why; /* this */

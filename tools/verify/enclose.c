@@ -67,39 +67,33 @@ static const piece *piece_of(const place *p, size_t stage_index)
     return &g->pieces[stage_index == 0 ? p->piece : 0];
 }
 
-static enclosed composed(const place *p, const box3 *where, const jet variables[VARIABLES],
-                         jet out[3], split *divide)
+enclosed enclose(const place *p, const box3 *where, const double at[3], jet out[3], jet centre[3],
+                 split *divide)
 {
+    jet wide[4], narrow[4];
+    ld_interval offset[BOX_DIMS];
+    for (int j = 0; j < VARIABLES; ++j) {
+        const ld_interval all = ld_interval_make(where->lo[j], where->hi[j]);
+        wide[j] = jet_variable(VARIABLES, j, all);
+        narrow[j] = jet_variable(VARIABLES, j, ld_interval_of(at[j]));
+        narrow[j].bends = 0;
+        offset[j] = ld_interval_sub(all, ld_interval_of(at[j]));
+    }
+    const formula_boxes given = {wide, narrow, offset};
     const part *found;
     enclosed result = choose(piece_of(p, 0), where, &found, divide);
     if (result == ENCLOSED_EMPTY && touches_end(p, piece_of(p, 0), where)) return ENCLOSED_UNSAID;
     if (result != ENCLOSED) return result;
-    formula_jets_in(found->f, variables, p->room, out);
+    formula_jets_about(found->f, &given, p->room, out, centre);
+    wide[3] = wide[T], narrow[3] = narrow[T];
     const box3 times = {{-INFINITY, -INFINITY, where->lo[T]}, {INFINITY, INFINITY, where->hi[T]}};
     for (size_t k = 1; k <= p->maps; ++k) {
-        const jet moved[4] = {out[0], out[1], out[2], variables[T]};
+        for (int i = 0; i < 3; ++i) wide[i] = out[i], narrow[i] = centre[i];
         result = choose(piece_of(p, k), &times, &found, divide);
         if (result != ENCLOSED) return result == ENCLOSED_EMPTY ? ENCLOSED_UNSAID : result;
-        formula_jets_in(found->f, moved, p->room, out);
+        formula_jets_about(found->f, &given, p->room, out, centre);
     }
     return ENCLOSED;
-}
-
-enclosed enclose(const place *p, const box3 *where, jet out[3], split *divide)
-{
-    jet variables[VARIABLES];
-    for (int j = 0; j < VARIABLES; ++j)
-        variables[j] = jet_variable(VARIABLES, j, ld_interval_make(where->lo[j], where->hi[j]));
-    return composed(p, where, variables, out, divide);
-}
-
-enclosed enclose_at(const place *p, const box3 *where, const double at[3], jet out[3])
-{
-    jet variables[VARIABLES];
-    split unused;
-    for (int j = 0; j < VARIABLES; ++j)
-        variables[j] = jet_variable(VARIABLES, j, ld_interval_of(at[j]));
-    return composed(p, where, variables, out, &unused);
 }
 
 void piece_box(const place *p, box3 *all)
@@ -120,9 +114,9 @@ void piece_box(const place *p, box3 *all)
  * line) makes the map affine in them. */
 static bool is_affine(const part *p, ld_interval t, jet room[])
 {
-    jet variables[4], out[3];
+    jet variables[4] = {[3] = jet_constant(3, t)}, out[3];
     bool affine = true;
-    for (int k = 0; k < 4; ++k) variables[k] = jet_variable(4, k, k < 3 ? ld_interval_entire() : t);
+    for (int k = 0; k < 3; ++k) variables[k] = jet_variable(3, k, ld_interval_entire());
     formula_jets_in(p->f, variables, room, out);
     for (int i = 0; i < 3; ++i)
         for (int k = 0; k < 3; ++k)
@@ -156,7 +150,7 @@ static jet gram(jet j[3][3], int i, int k)
 }
 
 /* Lemma. The largest sum of a row bounds the norm of a symmetric matrix. */
-static long double deviation(const part *p, double lo, double hi, jet room[])
+static double deviation(const part *p, double lo, double hi, jet room[])
 {
     jet wide[3][3], narrow[3][3];
     const ld_interval t = ld_interval_make(lo, hi), at = ld_interval_of(lo + 0.5 * (hi - lo));
@@ -164,7 +158,7 @@ static long double deviation(const part *p, double lo, double hi, jet room[])
     if (!is_affine(p, t, room)) return INFINITY;
     columns(p, t, room, wide);
     columns(p, at, room, narrow);
-    long double most = 0;
+    double most = 0;
     for (int i = 0; i < 3; ++i) {
         ld_interval row = ld_interval_of(0);
         for (int k = 0; k < 3; ++k) {
@@ -178,9 +172,9 @@ static long double deviation(const part *p, double lo, double hi, jet room[])
 
 /* Times are halved until d is small or this deep. */
 enum { HALVINGS = 14 };
-#define DEVIATION_SMALL 0x1p-26L
+#define DEVIATION_SMALL 0x1p-26
 
-static long double worst(const piece *p, double lo, double hi, int depth, jet room[])
+static double worst(const piece *p, double lo, double hi, int depth, jet room[])
 {
     const part *found;
     split divide;
@@ -189,20 +183,20 @@ static long double worst(const piece *p, double lo, double hi, int depth, jet ro
     double at = lo + 0.5 * (hi - lo);
     if (result != ENCLOSED && result != ENCLOSED_SPLIT) return INFINITY;
     if (result == ENCLOSED) {
-        const long double d = deviation(found, lo, hi, room);
+        const double d = deviation(found, lo, hi, room);
         if (d <= DEVIATION_SMALL || depth >= HALVINGS || !(lo < at && at < hi) || isinf(d))
             return d;
-        if (deviation(found, at, at, room) > 0.5L * d) return d; /* it is no smaller there */
+        if (deviation(found, at, at, room) > 0.5 * d) return d; /* it is no smaller there */
     } else {
         at = divide.at;
     }
     depth += result == ENCLOSED;
-    const long double first = worst(p, lo, at, depth, room);
-    const long double second = worst(p, at, hi, depth, room);
+    const double first = worst(p, lo, at, depth, room);
+    const double second = worst(p, at, hi, depth, room);
     return !(first <= second) ? first : second;
 }
 
-long double map_deviation_upper(const statement *s, size_t map, double lo, double hi, jet *room)
+double map_deviation_upper(const statement *s, size_t map, double lo, double hi, jet *room)
 {
     return worst(&s->stages[map].pieces[0], lo, hi, 0, room);
 }

@@ -30,15 +30,12 @@ typedef struct place {
     const statement *of;
     const chain *chain;
     size_t piece, maps; /* maps that are applied: the first ones */
-    jet *room;          /* for the steps of any formula */
+    jet *room;          /* for twice the steps of any formula */
 } place;
 
-/* Computes x, y and z over the box. */
-enclosed enclose(const place *p, const box3 *where, jet out[3], split *divide);
-
-/* Computes them at a point of the box, whose parts are chosen for the box. Derivatives of second
- * order are not computed. */
-enclosed enclose_at(const place *p, const box3 *where, const double at[3], jet out[3]);
+/* Computes x, y and z over the box, and at a point of it, there without second derivatives. */
+enclosed enclose(const place *p, const box3 *where, const double at[3], jet out[3], jet centre[3],
+                 split *divide);
 
 /* Returns the least box of u and v that holds the piece; t is left. */
 void piece_box(const place *p, box3 *all);
@@ -46,6 +43,6 @@ void piece_box(const place *p, box3 *all);
 /* An upper bound d of |J^T J - 1| for the Jacobian J of a map, at all times from lo to hi: it is
  * x -> R(t) x + c(t), and shrinks no length by more than the root of 1 - d. INFINITY: it may not
  * be. */
-long double map_deviation_upper(const statement *s, size_t map, double lo, double hi, jet *room);
+double map_deviation_upper(const statement *s, size_t map, double lo, double hi, jet *room);
 
 #endif

@@ -65,22 +65,13 @@ static void copy(input *in, char *to, size_t room, const char *text)
 
 /* --- Formulas --------------------------------------------------------------------------------- */
 
-/* The double at or below, or at or above; x has more digits than a double. */
-static double double_below(long double x)
-{
-    const double y = (double)x;
-    return y > x ? nextafter(y, -INFINITY) : y;
-}
-
-static double double_above(long double x) { return -double_below(-x); }
-
-static bool take_part(input *in, bool is_map, const formula_range said[BOX_DIMS], part *p)
+static bool take_part(input *in, bool is_map, const formula_range said[FORMULA_VARIABLES], part *p)
 {
     for (int j = 0; j < 3; ++j) {
         const int variable = is_map && j == 2 ? 3 : j;
         const formula_range *range = &said[variable];
-        p->lo[j] = range->is_said ? double_below(range->lo.lo) : -INFINITY;
-        p->hi[j] = range->is_said ? double_above(range->hi.hi) : INFINITY;
+        p->lo[j] = range->is_said ? range->lo.lo : -INFINITY;
+        p->hi[j] = range->is_said ? range->hi.hi : INFINITY;
         if (!is_map && j < 2 && !(p->lo[j] > -INFINITY && p->hi[j] < INFINITY))
             return input_refuse(in, "a formula says no finite domain of %c", "uv"[j]);
         if (is_map && j < 2 && said[j].is_said)
@@ -110,7 +101,7 @@ static bool read_piece(statement *s, input *in, bool is_map, piece *p)
     const char *text = line != NULL && *line != '\0' ? line : NULL;
     size_t room = 0;
     while (text != NULL && GROW(in, p->parts, p->count, room)) {
-        formula_range said[BOX_DIMS];
+        formula_range said[FORMULA_VARIABLES];
         part *made = &p->parts[p->count];
         made->f = formula_read_part(&scope, text, said, fault, sizeof fault);
         if (made->f == NULL) {

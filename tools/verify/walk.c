@@ -137,8 +137,8 @@ static bool leave_out(pair *p, size_t count)
         if (map != b->stages[b->count - k])
             return input_refuse(in, "maps are left out that the surfaces do not share");
         if (!p->is_said) continue;
-        const long double d = map_deviation_upper(s, map, s->from, s->to, p->prover.side[0].room);
-        if (!(d < 0.5L))
+        const double d = map_deviation_upper(s, map, s->from, s->to, p->prover.side[0].room);
+        if (!(d < 0.5))
             return input_refuse(in, "map %zu (%s), left out, is not proved to be rigid", map,
                                 s->stages[map].type);
         const ld_interval square = ld_interval_sub(ld_interval_of(1), ld_interval_of(d));
@@ -161,18 +161,25 @@ static void note_assumed(walk *w, const chain *c)
     }
 }
 
-static bool take_pair(walk *w, size_t a, size_t b, jet *room)
+/* Memory of all pairs. */
+typedef struct work {
+    jet *steps;
+    kept *kept;
+} work;
+
+static bool take_pair(walk *w, size_t a, size_t b, const work *room)
 {
     const statement *s = w->says;
     pair p = {.w = w, .chain = {&s->chains[a], &s->chains[b]}};
     cell c = {.t = {s->from, s->to}};
     p.is_said = statement_is_said(s, p.chain[0]) && statement_is_said(s, p.chain[1]);
     p.prover.tests_most = w->effort;
+    p.prover.kept = room->kept;
     w->pairs += 1;
     if (input_count(w->in, s->chain_count) != a || input_count(w->in, s->chain_count) != b)
         return input_refuse(w->in, "the tree of surfaces %zu and %zu is not here", a, b);
     for (int side = 0; side < 2; ++side) {
-        p.prover.side[side] = (place){.of = s, .chain = p.chain[side], .room = room};
+        p.prover.side[side] = (place){.of = s, .chain = p.chain[side], .room = room->steps};
         c.count[side] = s->stages[p.chain[side]->stages[0]].count;
         if (!p.is_said) note_assumed(w, p.chain[side]);
         if (c.count[side] == 0) return input_refuse(w->in, "a surface has no pieces");
@@ -187,13 +194,15 @@ static bool take_pair(walk *w, size_t a, size_t b, jet *room)
     }
     if (good && p.is_said) cell_begin(&p.prover, &c);
     good = good && take_entry(&p, &c, 0);
-    free(p.order[0]);
-    free(p.order[1]);
+    for (int side = 0; side < 2; ++side) {
+        free(p.order[side]);
+        free(p.prover.areas[side]);
+    }
     return good;
 }
 
 /* All surfaces of two bodies, in the order of the scene. */
-static bool take_bodies(walk *w, size_t a, size_t b, const size_t *first, jet *room)
+static bool take_bodies(walk *w, size_t a, size_t b, const size_t *first, const work *room)
 {
     for (size_t i = first[a]; i < first[a + 1]; ++i)
         for (size_t j = first[b]; j < first[b + 1]; ++j)
@@ -216,15 +225,17 @@ bool walk_trees(walk *w)
 {
     const statement *s = w->says;
     size_t *first = malloc((s->body_count + 1) * sizeof *first);
-    jet *room = malloc(((size_t)s->steps + 1) * sizeof *room);
-    bool good = first != NULL && room != NULL;
+    const work room = {malloc((2 * (size_t)s->steps + 1) * sizeof *room.steps),
+                       calloc(KEPT, sizeof *room.kept)};
+    bool good = first != NULL && room.steps != NULL && room.kept != NULL;
     if (!good) input_refuse(w->in, "memory ran out");
     good = good && find_first(w, first);
     for (size_t a = 0; a < s->body_count && good; ++a)
         for (size_t b = a + 1; b < s->body_count && good; ++b)
-            if (!statement_ignores(s, a, b)) good = take_bodies(w, a, b, first, room);
+            if (!statement_ignores(s, a, b)) good = take_bodies(w, a, b, first, &room);
     free(first);
-    free(room);
+    free(room.steps);
+    free(room.kept);
     return good && input_end(w->in);
 }
 
@@ -240,9 +251,9 @@ static bool find_point(walk *w, int k, jet *room, ld_interval x[3])
         return input_refuse(w->in, "a point is on no piece");
     const place p = {s, c, q->piece, c->count - 1, room};
     const box3 where = {{q->u, q->v, s->t}, {q->u, q->v, s->t}};
-    jet out[3];
+    jet out[3], same[3];
     split unused;
-    if (enclose(&p, &where, out, &unused) != ENCLOSED)
+    if (enclose(&p, &where, where.lo, out, same, &unused) != ENCLOSED)
         return input_refuse(w->in, "a point is outside of its surface");
     for (int i = 0; i < 3; ++i) x[i] = out[i].v;
     return true;
@@ -259,7 +270,7 @@ bool walk_points(walk *w)
         if (!statement_is_said(s, c)) note_assumed(w, c), said = false;
     }
     if (!said) return true;
-    jet *room = malloc(((size_t)s->steps + 1) * sizeof *room);
+    jet *room = malloc((2 * (size_t)s->steps + 1) * sizeof *room);
     bool good = room != NULL || input_refuse(w->in, "memory ran out");
     for (int k = 0; k < 2 && good; ++k) good = find_point(w, k, room, x[k]);
     free(room);
@@ -272,6 +283,6 @@ bool walk_points(walk *w)
         sum = ld_interval_add(sum, ld_interval_sqr(ld_interval_sub(x[1][i], x[0][i])));
     const ld_interval gap = ld_interval_sqrt(sum);
     if (gap.hi <= s->within) return true;
-    return input_refuse(w->in, "the points stated are %.9Lg apart, claimed within %.9g", gap.hi,
+    return input_refuse(w->in, "the points stated are %.9g apart, claimed within %.9g", gap.hi,
                         s->within);
 }
