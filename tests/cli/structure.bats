@@ -358,6 +358,33 @@ dangling_comments() { # FOLDER
     top_builddir=$BATS_TEST_TMPDIR "$nested"
 }
 
+# A quad that takes a detour over the stack waits there for the stores of its halves.
+@test "quads are loaded and stored whole, for old and for new processors" {
+    [ "$(uname -m)" = x86_64 ] || skip "not an x86-64 processor"
+    local compiler level tried=0
+    cat >"$BATS_TEST_TMPDIR/sum.c" <<-'EOF'
+	#include <impinge/quad.h>
+	IMP_QUAD_INLINE void sum(const double *x, double *y)
+	{
+	    const imp_quad a = imp_quad_load(x), b = imp_quad_load(x + 4);
+	    imp_quad_store(y, a + b);
+	    imp_quad_store(y + 4, a - b);
+	}
+	IMP_QUAD_WIDE void sum_wide(const double *x, double *y) { sum(x, y); }
+	EOF
+    for compiler in gcc clang; do
+        command -v "$compiler" || continue
+        for level in x86-64 haswell; do
+            "$compiler" -std=c11 -O2 -march=$level -Wno-psabi -fomit-frame-pointer \
+                -I"$top_srcdir/sdk" -S -o "$BATS_TEST_TMPDIR/sum.s" "$BATS_TEST_TMPDIR/sum.c"
+            grep -q %ymm "$BATS_TEST_TMPDIR/sum.s"
+            run ! grep -E '%xmm|\(%r[bs]p' "$BATS_TEST_TMPDIR/sum.s"
+            tried=$((tried + 1))
+        done
+    done
+    [ "$tried" -gt 0 ] || skip "neither gcc nor clang found"
+}
+
 @test "configure refuses flags that change floating-point arithmetic" {
     local flag
     cd "$BATS_TEST_TMPDIR"
