@@ -22,6 +22,7 @@ core_base = \
     core/impinge/baseline.h core/impinge/examine.h core/impinge/impinge.h \
     core/base/active_callback.c core/base/active_callback.h \
     core/base/arena.c core/base/arena.h \
+    core/base/arena_store.c core/base/arena_store.h \
     core/base/file_text.c core/base/file_text.h \
     core/base/fp_mode.h \
     core/base/limit_watch.h \

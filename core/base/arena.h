@@ -4,7 +4,10 @@
 #define CORE_BASE_ARENA_H
 
 #include <stdatomic.h>
+#include <stdbool.h>
 #include <stddef.h>
+
+#include "core/base/arena_store.h"
 
 /* Arenas: rooms of memory that are freed all together
  * ===================================================
@@ -38,11 +41,13 @@ static inline void *arena_next(arena *a, size_t bytes)
     return at + bytes <= newest->capacity ? (char *)newest->memory + at : NULL;
 }
 
-/* Takes room of `bytes` in the newest block or in a new one, whose size is added to *made. NULL: no
- * memory. Only one thread at a time may call it; others may call arena_next meanwhile. */
-void *arena_take(arena *a, const arena_growth *growth, size_t bytes, size_t *made);
+/* Takes room of `bytes` in the newest block or in a new one, from the store or, if that is NULL or
+ * has none, from the heap; the size of a new block is added to *made. NULL: no memory. Only one
+ * thread at a time may call it; others may call arena_next meanwhile. */
+void *arena_take(arena *a, const arena_growth *growth, size_t bytes, size_t *made,
+                 arena_store *store);
 
-/* Frees all blocks. */
-void arena_clear(arena *a);
+/* Gives all blocks to the store or, if that is NULL, frees them. */
+void arena_clear(arena *a, arena_store *store);
 
 #endif

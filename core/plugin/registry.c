@@ -20,6 +20,8 @@ const found_type *registry_find(const imp_registry *r, imp_type_kind kind, const
     return NULL;
 }
 
+arena_store *registry_store(const imp_registry *registry) { return registry->store; }
+
 const imp_surface_type *registry_find_surface(const imp_registry *registry, const char *name)
 {
     const found_type *found = registry_find(registry, IMP_TYPE_SURFACE, name);
@@ -217,6 +219,7 @@ void imp_registry_free(imp_registry *r)
 {
     if (r == NULL) return;
     worker_pool_free(r->workers);
+    arena_store_free(r->store);
     free_remarks(&r->refusals);
     free_remarks(&r->warnings);
     for (size_t i = r->plugin_count; i > 0; --i) free_plugin(r->plugin[i - 1]);

@@ -5,6 +5,7 @@
 
 #include <impinge/impinge.h>
 
+#include "core/base/arena_store.h"
 #include "core/plugin/search_path.h"
 #include "core/plugin/worker_pool.h"
 
@@ -16,6 +17,9 @@
 
 /* Makes a registry as imp_registry_open does, from these directories only. NULL: no memory. */
 imp_registry *registry_scan(const search_path *path, unsigned flags);
+
+/* Returns the memory that scenes made by the registry share; it lives as long as that. */
+arena_store *registry_store(const imp_registry *registry);
 
 /* Find a type by its name. NULL: not found. */
 const imp_surface_type *registry_find_surface(const imp_registry *registry, const char *name);

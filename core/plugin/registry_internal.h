@@ -50,7 +50,8 @@ struct imp_registry {
     remarks refusals, warnings;
     load_cache *cache; /* while scanning */
     bool secure;
-    char *isolated;       /* names between commas, ",a,b,"; "" for all; NULL for none */
+    char *isolated; /* names between commas, ",a,b,"; "" for all; NULL for none */
+    arena_store *store;
     worker_pool *workers; /* where isolated types run; NULL: none was isolated yet */
 };
 

@@ -185,9 +185,20 @@ static bool scan_directory(imp_registry *r, const search_directory *directory)
 
 /* --- Whole registries ------------------------------------------------------------------------- */
 
-FP_APART static imp_registry *scan(const search_path *path, unsigned flags)
+/* NULL: no memory. */
+static imp_registry *registry_new(void)
 {
     imp_registry *r = calloc(1, sizeof *r);
+    if (r == NULL) return NULL;
+    r->store = arena_store_new();
+    if (r->store != NULL) return r;
+    free(r);
+    return NULL;
+}
+
+FP_APART static imp_registry *scan(const search_path *path, unsigned flags)
+{
+    imp_registry *r = registry_new();
     if (r == NULL) return NULL;
     r->secure = (flags & IMP_REGISTRY_SECURE) != 0;
     r->cache = load_cache_read();
@@ -234,7 +245,7 @@ FP_APART static bool scan_one(imp_registry *r, const char *file)
 
 imp_registry *imp_registry_from_file(const char *file)
 {
-    imp_registry *r = file != NULL ? calloc(1, sizeof *r) : NULL;
+    imp_registry *r = file != NULL ? registry_new() : NULL;
     if (r == NULL) return NULL;
     const fp_environment environment = fp_environment_enter();
     const bool good = scan_one(r, file);

@@ -9,6 +9,7 @@
 
 #include "core/base/text.h"
 #include "core/common/spelling.h"
+#include "core/plugin/registry.h"
 
 /* --- Creation and destruction ----------------------------------------------------------------- */
 
@@ -16,7 +17,9 @@ imp_code scene_bodies_start(scene_bodies *b, const scene_source *source, imp_err
 {
     *b = (scene_bodies){
         .instances = {.source = *source, .error = error}, .names = json_object(), .error = error};
-    return assembly_begin(&b->assembly) && b->names != NULL ? IMP_SUCCESS : error_set_memory(error);
+    if (!assembly_begin(&b->assembly) || b->names == NULL) return error_set_memory(error);
+    scene_set_store(b->assembly.scene, registry_store(source->registry));
+    return IMP_SUCCESS;
 }
 
 void scene_bodies_clear(scene_bodies *b)

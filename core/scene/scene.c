@@ -53,6 +53,7 @@ struct imp_scene {
     uint64_t bytes;      /* 0: not summed up yet */
     double t_from, t_to; /* when all surfaces are defined; not known yet: never */
     scene_remarks remarks;
+    arena_store *store; /* of blocks for trees; not its own; NULL: the heap */
     /* once it is built all but the members' lists of trees is only read */
 };
 
@@ -124,6 +125,8 @@ imp_code scene_add_body(imp_scene *scene, const char *name)
     bodies[scene->count++] = (scene_body){.name = copy};
     return IMP_SUCCESS;
 }
+
+void scene_set_store(imp_scene *scene, arena_store *store) { scene->store = store; }
 
 void scene_set_solid(imp_scene *scene, size_t body, bool is_solid)
 {
@@ -588,8 +591,10 @@ imp_code scene_tree(imp_scene *scene, size_t body, size_t index, const tree_plan
     if (*found != NULL) return IMP_SUCCESS;
     const surface *s = surface_in_frame(m, plan->left_out, growth);
     if (s == NULL) return error_set_memory(error);
-    const imp_code code = with_root ? tree_new(s, plan, &made, &own, error)
-                                    : tree_new_without_root(s, plan, &made, &own, error);
+    tree_plan stored = *plan;
+    stored.store = scene->store;
+    const imp_code code = with_root ? tree_new(s, &stored, &made, &own, error)
+                                    : tree_new_without_root(s, &stored, &made, &own, error);
     growth->ended = own.ended;
     if (code != IMP_SUCCESS) return code;
     *found = keep_tree(m, plan, made);

@@ -3,6 +3,7 @@
 #ifndef CORE_SCENE_SCENE_H
 #define CORE_SCENE_SCENE_H
 
+#include "core/base/arena_store.h"
 #include "core/surface/surface.h"
 
 /* Bodies and their surfaces, the groups they are in, and who ignores whom. Built by assembly, read
@@ -17,6 +18,10 @@ imp_code scene_add_body(imp_scene *scene, const char *name);
 void scene_set_solid(imp_scene *scene, size_t body, bool solid);
 bool scene_is_solid(const imp_scene *scene, size_t body);
 bool scene_has_solids(const imp_scene *scene); /* whether any body is */
+
+/* Sets where its trees take memory from and give it to; it must outlive the scene. At first, and if
+ * NULL, that is the heap. */
+void scene_set_store(imp_scene *scene, arena_store *store);
 
 /* Takes over `s`, also when it fails. */
 imp_code scene_add_surface(imp_scene *scene, size_t body, surface *s);

@@ -27,7 +27,7 @@ static node *node_reserve(tree *t, tree_growth *growth)
     if (n != NULL)
         atomic_store_explicit(&t->spare, n->parent, memory_order_relaxed);
     else
-        n = arena_take(&t->nodes, &node_growth, sizeof *n, &growth->bytes);
+        n = arena_take(&t->nodes, &node_growth, sizeof *n, &growth->bytes, t->plan.store);
     pthread_mutex_unlock(&t->lock);
     return n;
 }

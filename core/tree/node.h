@@ -5,6 +5,7 @@
 
 #include <stdatomic.h>
 
+#include "core/base/arena_store.h"
 #include "core/base/limit_watch.h"
 #include "core/surface/region.h"
 #include "core/surface/surface.h"
@@ -85,6 +86,7 @@ typedef struct tree_plan {
     double t_start, t_end; /* within the surface's domain */
     node_audit audit;      /* may be NULL */
     size_t left_out;       /* number of the surface's last maps that are not applied */
+    arena_store *store;    /* of blocks for its nodes; NULL: the heap; no difference otherwise */
 } tree_plan;
 
 /* Counts of what calls have made; `watch`, which any thread may ask, ends those that take long. */

@@ -17,7 +17,7 @@ static net *net_alloc(tree *t, size_t bytes, tree_growth *growth)
     net *n = arena_next(&t->nets, bytes);
     if (n != NULL) return n;
     pthread_mutex_lock(&t->lock);
-    n = arena_take(&t->nets, &sizes, bytes, &growth->bytes);
+    n = arena_take(&t->nets, &sizes, bytes, &growth->bytes, t->plan.store);
     pthread_mutex_unlock(&t->lock);
     return n;
 }

@@ -56,7 +56,7 @@ static shape *shape_publish(posing *g, const shape *filled, _Atomic(shape *) *sl
     pthread_mutex_lock(g->lock);
     shape *s = atomic_load_explicit(slot, memory_order_relaxed);
     if (s == NULL) {
-        s = arena_take(&g->memory, &posing_growth, sizeof *s, &growth->bytes);
+        s = arena_take(&g->memory, &posing_growth, sizeof *s, &growth->bytes, g->store);
         if (s != NULL) {
             memcpy(s, filled, sizeof *s);
             atomic_store_explicit(slot, s, memory_order_release);
@@ -109,7 +109,7 @@ static span *span_publish(posing *g, const span *filled, _Atomic(span *) *slot, 
     pthread_mutex_lock(g->lock);
     span *s = atomic_load_explicit(slot, memory_order_relaxed);
     if (s == NULL) {
-        s = arena_take(&g->memory, &posing_growth, sizeof *s, &growth->bytes);
+        s = arena_take(&g->memory, &posing_growth, sizeof *s, &growth->bytes, g->store);
         if (s != NULL) {
             memcpy(s, filled, sizeof *s);
             atomic_store_explicit(slot, s, memory_order_release);

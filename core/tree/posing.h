@@ -23,6 +23,7 @@ typedef struct posing {
     _Atomic(struct shape *) shape; /* the root's; NULL: not made yet */
     _Atomic(struct span *) span;
     arena memory; /* of shapes and spans */
+    arena_store *store;
 } posing;
 
 /* Sets shape and span of n, a half of its parent of which only the place is set, if the surface

@@ -68,7 +68,7 @@ static tree *tree_begin(const surface *s, const tree_plan *plan, bool with_root)
                 .plan = *plan,
                 .begins_with_root = with_root,
                 .lock = PTHREAD_MUTEX_INITIALIZER,
-                .posing = {.lock = &t->lock}};
+                .posing = {.lock = &t->lock, .store = plan->store}};
     return t;
 }
 
@@ -151,10 +151,10 @@ imp_code tree_new_from_root(const tree *t, tree **made, tree_growth *growth, imp
 void tree_free(tree *t)
 {
     if (t == NULL) return;
-    arena_clear(&t->nodes);
+    arena_clear(&t->nodes, t->plan.store);
     hierarchy_release(t->pieces);
-    arena_clear(&t->nets);
-    arena_clear(&t->posing.memory);
+    arena_clear(&t->nets, t->plan.store);
+    arena_clear(&t->posing.memory, t->plan.store);
     pthread_mutex_destroy(&t->lock);
     if (!t->begins_with_root) free(atomic_load_explicit(&t->root, memory_order_relaxed));
     free(t);

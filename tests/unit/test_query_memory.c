@@ -2,7 +2,10 @@
  * SPDX-License-Identifier: Apache-2.0 */
 #include <config.h>
 
+#include <sys/resource.h>
+
 #include "tests/support/alloc_failure.h"
+#include "tests/support/built_plugins.h"
 #include "tests/support/compose.h"
 #include "tests/support/sphere_scenes.h"
 
@@ -212,7 +215,46 @@ START_TEST(a_clearance_out_of_memory_keeps_its_brackets_and_can_go_on)
 }
 END_TEST
 
+/* --- Pages ------------------------------------------------------------------------------------ */
+
+#if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
+enum { FAULTS_MOST = 200 }; /* they keep what was freed for a while */
+#else
+enum { FAULTS_MOST = 2 };
+#endif
+
+static void solve_pair(imp_registry *registry)
+{
+    imp_error error;
+    imp_scene *scene = imp_scene_from_pair(
+        registry, "torus major_radius=1 minor_radius=.3 ! rotate axis=1,0,0 rate=2",
+        "torus major_radius=1 minor_radius=.2 center=3,0,0 ! rotate axis=0,1,0 rate=1 ! "
+        "translate velocity=-3,0,0",
+        &error);
+    ck_assert_msg(scene != NULL, "%s", error.text);
+    imp_result result = {.struct_size = sizeof result};
+    const imp_options options = imp_options_default(scene);
+    ck_assert_int_eq(imp_scene_solve(scene, &options, &result, &error), IMP_SUCCESS);
+    ck_assert_int_eq(result.verdict, IMP_VERDICT_CONTACT);
+    imp_scene_free(scene);
+}
+
+START_TEST(scenes_in_turn_use_the_same_pages)
+{
+    enum { SCENES = 50 };
+    imp_registry *registry = built_registry();
+    struct rusage before, after;
+    for (int k = 0; k < 3; ++k) solve_pair(registry);
+    getrusage(RUSAGE_SELF, &before);
+    for (int k = 0; k < SCENES; ++k) solve_pair(registry);
+    getrusage(RUSAGE_SELF, &after);
+    ck_assert_int_lt(after.ru_minflt - before.ru_minflt, SCENES * FAULTS_MOST);
+    imp_registry_free(registry);
+}
+END_TEST
+
 SUITE_MAIN("query_memory", a_scene_is_whole_or_not_there,
            a_query_out_of_memory_is_undecided_with_what_is_proved_and_can_go_on,
            so_is_the_papers_method, solving_at_once_tells_of_memory_too,
-           a_clearance_out_of_memory_keeps_its_brackets_and_can_go_on)
+           a_clearance_out_of_memory_keeps_its_brackets_and_can_go_on,
+           scenes_in_turn_use_the_same_pages)
