@@ -8,6 +8,7 @@
 
 #include <jansson.h>
 #include <string.h>
+#include <sys/stat.h>
 #include <unistd.h>
 
 /* `impinge view` of whatever bytes: the first one chooses the format, the rest is a scene, or the
@@ -114,18 +115,42 @@ const char *__wrap_build_tree_data(void)
 
 static char folder[] = "/tmp/impinge-fuzz-picture-XXXXXX";
 
-static void remove_folder(void) { rmdir(folder); }
+/* Types of the seeds: all types would be looked for and read again for each input. */
+static const char *const types[] = {"formula", "plane",     "rotate",  "sphere",
+                                    "torus",   "translate", "triangle"};
+enum { TYPES = sizeof types / sizeof *types };
 
-/* Makes the folder of this process, and names the plugins of the build. */
+static void remove_folder(void)
+{
+    char path[128];
+    for (int k = 0; k < TYPES; ++k) {
+        snprintf(path, sizeof path, "%s/plugins/%s.so", folder, types[k]);
+        unlink(path);
+    }
+    snprintf(path, sizeof path, "%s/plugins", folder);
+    rmdir(path);
+    rmdir(folder);
+}
+
+/* Makes the folder of this process, with links to plugins of the build. They stay loaded: libFuzzer
+ * does not survive that their counters are unloaded with them. */
 static void prepare(void)
 {
-    static bool is_done;
-    char plugins[4096];
-    if (is_done) return;
-    fuzz_path(plugins, sizeof plugins, "top_builddir", "plugins/.libs");
-    FUZZ_REQUIRE(setenv("IMPINGE_PLUGIN_PATH", plugins, 1) == 0 && mkdtemp(folder) != NULL);
-    FUZZ_REQUIRE(atexit(remove_folder) == 0);
-    is_done = true;
+    static imp_registry *kept;
+    imp_type_info last;
+    char from[4096], to[128], below[64];
+    if (kept != NULL) return;
+    FUZZ_REQUIRE(mkdtemp(folder) != NULL && atexit(remove_folder) == 0);
+    snprintf(to, sizeof to, "%s/plugins", folder);
+    FUZZ_REQUIRE(mkdir(to, 0700) == 0 && setenv("IMPINGE_PLUGIN_PATH", to, 1) == 0);
+    for (int k = 0; k < TYPES; ++k) {
+        snprintf(below, sizeof below, "plugins/.libs/%s.so", types[k]);
+        fuzz_path(from, sizeof from, "top_builddir", below);
+        snprintf(to, sizeof to, "%s/plugins/%s.so", folder, types[k]);
+        FUZZ_REQUIRE(symlink(from, to) == 0);
+    }
+    kept = imp_registry_new(NULL);
+    FUZZ_REQUIRE(kept != NULL && imp_registry_type(kept, TYPES - 1, &last));
 }
 
 static exit_status view(const char *scene, const char *picture)
