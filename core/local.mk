@@ -35,6 +35,7 @@ core_base = \
 
 core_surface = \
     core/surface/carried.c core/surface/carried.h \
+    core/surface/clocked.c core/surface/clocked.h \
     core/surface/formula_text.c core/surface/formula_text.h \
     core/surface/instance.c core/surface/instance.h \
     core/surface/region.c core/surface/region.h \
@@ -45,6 +46,7 @@ core_surface = \
     core/surface/surface_motion.c core/surface/surface_net.c core/surface/surface_pose.c \
     core/surface/surface_orbit.c core/surface/surface_pair_slip.c \
     core/surface/surface_rate.c core/surface/surface_slip.c \
+    core/surface/surface_shift.c core/surface/surface_shift.h \
     core/surface/surface_symmetry.c
 
 core_tree = \
@@ -97,8 +99,10 @@ core_scene = \
     core/scene/assembly.c core/scene/assembly.h \
     core/scene/default_times.c core/scene/default_times.h \
     core/scene/key_pairs.c core/scene/key_pairs.h \
+    core/scene/posed_scene.c core/scene/posed_scene.h \
     core/scene/scene.c core/scene/scene.h \
     core/scene/scene_formula.c \
+    core/scene/scene_parameters.c core/scene/scene_parameters.h \
     core/scene/scene_remarks.c core/scene/scene_remarks.h \
     core/scene/scene_trees.h \
     core/scene/tolerances.c core/scene/tolerances.h
@@ -189,6 +193,14 @@ core_solver = \
     core/solver/upper_time.c core/solver/upper_time.h \
     core/solver/world.c core/solver/world.h
 
+core_survey = \
+    core/survey/box_queue.c core/survey/box_queue.h \
+    core/survey/survey.c \
+    core/survey/survey_answer.c \
+    core/survey/survey_box.c \
+    core/survey/survey_internal.h \
+    core/survey/survey_pairs.c
+
 core_reader = \
     core/reader/arguments.c core/reader/arguments.h \
     core/reader/builder.c \
@@ -213,7 +225,7 @@ core_libcommon_la_SOURCES = $(core_common)
 noinst_LTLIBRARIES += core/libcore.la
 core_libcore_la_SOURCES = $(core_base) $(core_surface) $(core_tree) $(core_plugin) $(core_scene) \
     $(core_solid) $(core_bounds) $(core_witness) $(core_broad_phase) $(core_proof) \
-    $(core_solver) $(core_reader)
+    $(core_solver) $(core_survey) $(core_reader)
 core_libcore_la_CFLAGS = $(AM_CFLAGS) $(UNROLL_CFLAGS)
 core_libcore_la_LIBADD = core/libcommon.la $(JANSSON_LIBS) -lm
 

@@ -77,6 +77,7 @@ check_suites = \
     tests/unit/test_spheres \
     tests/unit/test_steps \
     tests/unit/test_surface \
+    tests/unit/test_survey \
     tests/unit/test_threads \
     tests/unit/test_times \
     tests/unit/test_touchings

@@ -281,6 +281,12 @@ IMP_EXPORT imp_code imp_builder_time(imp_builder *builder, double start, double 
 IMP_EXPORT imp_code imp_builder_gamma(imp_builder *builder, double gamma, double gamma_clear,
                                       imp_error *error);
 
+/* Adds a parameter of the scene: a quantity beside time, from lo to hi, both finite. Surfaces and
+ * maps that are added afterwards with imp_argument_text("clock", name) among their arguments follow
+ * it: their t is its value. Scenes with parameters are asked by imp_survey_new. */
+IMP_EXPORT imp_code imp_builder_parameter(imp_builder *builder, const char *name, double lo,
+                                          double hi, imp_error *error);
+
 /* Adds a body, whose index, counted from 0, goes to *body (may be NULL). A name that is NULL
  * becomes "body0", "body1", .... */
 IMP_EXPORT imp_code imp_builder_body(imp_builder *builder, const char *name, size_t *body,
@@ -324,6 +330,28 @@ IMP_EXPORT imp_code imp_builder_ignore(imp_builder *builder, const char *x, cons
 /* Makes the scene, which the caller frees. After that the builder may only be freed. NULL on
  * error. */
 IMP_EXPORT imp_scene *imp_builder_finish(imp_builder *builder, imp_error *error);
+
+/* --- Scene: its parameters -------------------------------------------------------------------- */
+
+/* A parameter of a scene, "parameters" of scene files. It never grows. */
+typedef struct imp_scene_parameter_info {
+    const char *name; /* lives as long as the scene */
+    double lo, hi;    /* its range */
+    bool is_followed; /* some surface or map has it as its clock */
+} imp_scene_parameter_info;
+
+/* Returns the number of parameters. A scene that has some stands at the middle of their ranges
+ * where it is evaluated, and its motions are those at these values. */
+IMP_EXPORT size_t imp_scene_parameter_count(const imp_scene *scene);
+
+/* Fills *info for parameter `index`. False past the last, or if `info` is NULL. */
+IMP_EXPORT bool imp_scene_parameter(const imp_scene *scene, size_t index,
+                                    imp_scene_parameter_info *info);
+
+/* Makes the scene at these values of its parameters, one for each, in their order: a scene without
+ * parameters, which shares with the other what create made. IMP_ERROR_USAGE: a value is out of its
+ * range. NULL on error. The caller frees the scene. [any thread] */
+IMP_EXPORT imp_scene *imp_scene_at(const imp_scene *scene, const double *values, imp_error *error);
 
 /* --- Scene: what it holds --------------------------------------------------------------------- */
 
@@ -781,6 +809,109 @@ IMP_EXPORT size_t imp_clearance_count(const imp_query *query);
 /* Fills *answer. The caller sets answer->struct_size before. */
 IMP_EXPORT imp_code imp_clearance_get(const imp_query *query, size_t index, imp_clearance *answer,
                                       imp_error *error);
+
+/* --- Survey: all values of a scene's parameters ----------------------------------------------- */
+
+/* A survey asks about all values of a scene's parameters at once: for the earliest contact over all
+ * of them or, with clearance options, for the least distance. It divides the box of values, for
+ * each pair of bodies by the parameters that move one relative to the other, and asks one ordinary
+ * query in the middle of each box, with room for how far the box's values can move the bodies. So
+ * it is proved, like any answer:
+ *
+ *   (a) at no values do points of two bodies come nearer than gamma_clear before t_lower;
+ *   (b) CONTACT: at the values answered the witness is no farther apart than gamma, at t == t_lower;
+ *   (c) CLEAR: at no values do they come nearer than gamma_clear;
+ *   (d) a clearance: at no values nearer than `lower`; at the values answered the witness's points
+ *       are no farther than `upper` apart.
+ *
+ * Answers do not depend on threads. A survey belongs to one thread at a time; imp_survey_cancel may
+ * be called from anywhere. Scenes without parameters may be surveyed, too. */
+typedef struct imp_survey imp_survey;
+
+/* A part of the box of values, for two bodies, over a part of time. Pointers are valid during the
+ * call. It grows at the end. */
+typedef struct imp_survey_box {
+    uint32_t struct_size;
+    imp_verdict verdict;   /* CLEAR: proved not to come nearer than `lower`; CONTACT: it holds the
+                             values of the contact; UNDECIDED: not known */
+    size_t body[2];        /* SIZE_MAX: all pairs of bodies that no parameter moves */
+    size_t count;          /* number of parameters */
+    const double *lo, *hi; /* ranges of the parameters, in the scene's order */
+    double t_start, t_end;
+    double lower; /* length; CLEAR only */
+} imp_survey_box;
+
+/* Takes a box of a survey; called by the thread that steps it. */
+typedef void (*imp_survey_sink)(void *context, const imp_survey_box *box);
+
+/* What a survey is asked beside the options of its queries. */
+typedef struct imp_survey_options {
+    uint32_t struct_size; /* sizeof(imp_survey_options); grows at the end */
+    bool any;             /* end with any contact, though another may be earlier */
+    size_t body[2];       /* only these two bodies; SIZE_MAX, SIZE_MAX: all */
+    uint64_t max_boxes;   /* boxes asked about; 0: no limit */
+    imp_survey_sink sink; /* takes boxes as they are proved and, in the end, those left; NULL */
+    void *sink_context;
+} imp_survey_options;
+
+/* Sets the defaults. The caller sets how->struct_size before. */
+IMP_EXPORT imp_code imp_survey_options_get_default(imp_survey_options *how, imp_error *error);
+
+static inline imp_survey_options imp_survey_options_default(void)
+{
+    imp_survey_options how;
+    how.struct_size = (uint32_t)sizeof how;
+    imp_survey_options_get_default(&how, NULL);
+    return how;
+}
+
+/* Makes a survey. Options are those of a query: max_pairs, max_seconds and max_bytes hold for the
+ * whole; `baseline` must be 0. `asked` is NULL for the earliest contact; else a clearance, of one
+ * slice, without `each` and `within`. With `required` and `decide` it ends with any violation,
+ * which is then the earliest at its values. `how` may be NULL. The scene must outlive it. NULL on
+ * error; the caller frees it. */
+IMP_EXPORT imp_survey *imp_survey_new(imp_scene *scene, const imp_options *options,
+                                      const imp_clearance_options *asked,
+                                      const imp_survey_options *how, imp_error *error);
+IMP_EXPORT void imp_survey_free(imp_survey *survey);
+
+/* Asks about so many boxes more (0: until decided), or until a limit comes. After any success the
+ * functions below tell how far it came; it is done when the reason is not RUNNING. */
+IMP_EXPORT imp_code imp_survey_step(imp_survey *survey, uint64_t boxes, imp_error *error);
+
+/* Ends the running step soon, as UNDECIDED; if none is running, the next one. [any thread,
+ * async-signal-safe] */
+IMP_EXPORT void imp_survey_cancel(imp_survey *survey);
+
+/* Fill *result, of a survey for a contact, or *answer, of one for a clearance. Indices are those of
+ * the scene. The caller sets struct_size before. */
+IMP_EXPORT imp_code imp_survey_get_result(const imp_survey *survey, imp_result *result,
+                                          imp_error *error);
+IMP_EXPORT imp_code imp_survey_get_clearance(const imp_survey *survey, imp_clearance *answer,
+                                             imp_error *error);
+
+/* Copies the values at which the witness stands, one for each parameter. False: there is none. An
+ * undecided survey may have one: a contact at t_upper, before which another is not excluded. */
+IMP_EXPORT bool imp_survey_values(const imp_survey *survey, double *values);
+
+/* How far a survey has come. It grows at the end. */
+typedef struct imp_survey_state {
+    uint32_t struct_size;
+    imp_reason reason;
+    uint64_t boxes, waiting; /* asked about; left */
+    double proved;           /* share of all values and times that is proved, from 0 to 1: the mean
+                                over the pairs of bodies */
+    double t_upper;          /* time of the contact that is known; INFINITY: none */
+    size_t pairs_of_bodies;
+    bool has_worst; /* a box is left: the one that would be asked about next */
+    size_t worst_body[2];
+    double worst_time[2];
+} imp_survey_state;
+IMP_EXPORT imp_code imp_survey_get_state(const imp_survey *survey, imp_survey_state *state,
+                                         imp_error *error);
+
+/* Copies the ranges of the worst box left, one of each parameter. False: none is left. */
+IMP_EXPORT bool imp_survey_worst(const imp_survey *survey, double *lo, double *hi);
 
 /* Returns the time left from t until the first contact, the paper's h(t) = t0 - t. It is negative
  * when the contact is past, and INFINITY when there is none in the interval; where the result is

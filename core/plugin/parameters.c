@@ -18,7 +18,7 @@
 
 bool parameters_is_reserved(const char *name)
 {
-    return strcmp(name, "type") == 0 || strcmp(name, "maps") == 0;
+    return strcmp(name, "type") == 0 || strcmp(name, "maps") == 0 || strcmp(name, "clock") == 0;
 }
 
 /* --- One value -------------------------------------------------------------------------------- */

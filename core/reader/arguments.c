@@ -110,7 +110,8 @@ static imp_code add(json_t *object, const imp_argument *a, const place *up, imp_
     if (a->name == NULL || !text_is_utf8(a->name))
         return place_error(up, error, IMP_ERROR_USAGE, "an argument has no name of UTF-8");
     const place at = place_key(up, a->name);
-    if (parameters_is_reserved(a->name) || json_object_get(object, a->name) != NULL)
+    const bool is_clock = strcmp(a->name, "clock") == 0;
+    if ((parameters_is_reserved(a->name) && !is_clock) || json_object_get(object, a->name) != NULL)
         return place_error(&at, error, IMP_ERROR_SCENE, "is given twice, or is not a parameter");
     json_t *value = NULL;
     imp_code code = check(a, &at, error);

@@ -100,6 +100,19 @@ imp_code imp_builder_gamma(imp_builder *b, double gamma, double gamma_clear, imp
     return IMP_SUCCESS;
 }
 
+imp_code imp_builder_parameter(imp_builder *b, const char *name, double lo, double hi,
+                               imp_error *error)
+{
+    imp_code code = enter(b, error);
+    if (code != IMP_SUCCESS) return code;
+    if (name == NULL) return error_set(error, IMP_ERROR_USAGE, "parameter: the name is NULL");
+    const place at = place_argument(NULL, "parameter");
+    const fp_environment environment = fp_environment_enter();
+    code = scene_bodies_parameter(&b->bodies, name, lo, hi, &at);
+    fp_environment_leave(&environment);
+    return code;
+}
+
 /* --- Bodies ----------------------------------------------------------------------------------- */
 
 imp_code imp_builder_body(imp_builder *b, const char *name, size_t *body, imp_error *error)
@@ -176,6 +189,11 @@ imp_code imp_builder_surface_of(imp_builder *b, size_t body, const imp_scene *sc
         return error_set(error, IMP_ERROR_USAGE, "the scene has no surface %zu of a body %zu",
                          its_surface, its_body);
     shared_instance *shared = surface_share(s);
+    if (shared->inner != NULL) { /* here it follows time */
+        shared_instance *inner = instance_hold(shared->inner);
+        instance_release(shared);
+        shared = inner;
+    }
     const instance_list no_maps = {.count = 0};
     if (registry_find_surface(b->registry, shared->surface->name) != shared->surface)
         code = error_set(error, IMP_ERROR_USAGE,

@@ -103,7 +103,9 @@ static const imp_parameter *find_row(const reader *r, const char *type, bool map
 static imp_code put_value(reader *r, json_t *stage, bool map, const char *name, word value)
 {
     const char *type = json_string_value(json_object_get(stage, "type"));
-    const imp_parameter *row = find_row(r, type, map, name);
+    static const imp_parameter clock = {.name = "clock", .kind = IMP_KIND_STRING};
+    const bool is_clock = strcmp(name, clock.name) == 0;
+    const imp_parameter *row = is_clock ? &clock : find_row(r, type, map, name);
     json_t *json;
     char why[200] = "";
     imp_code code = pipeline_value_read(row, value.at, value.length, &json, why, sizeof why);
@@ -124,7 +126,7 @@ static imp_code read_argument(reader *r, json_t *stage, bool map, word w)
     if (name == NULL) return error_set_memory(r->error);
     word value = {equals + 1, w.length - length - 1};
     imp_code code;
-    if (parameters_is_reserved(name))
+    if (parameters_is_reserved(name) && strcmp(name, "clock") != 0)
         code = fail(r, w.at, "'%s' is not a parameter", name);
     else if (json_object_get(stage, name) != NULL)
         code = fail(r, w.at, "'%.60s' is given twice", name);

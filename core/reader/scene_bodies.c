@@ -4,6 +4,7 @@
 
 #include "core/reader/scene_bodies.h"
 
+#include <math.h>
 #include <stdio.h>
 #include <string.h>
 
@@ -19,6 +20,7 @@ imp_code scene_bodies_start(scene_bodies *b, const scene_source *source, imp_err
         .instances = {.source = *source, .error = error}, .names = json_object(), .error = error};
     if (!assembly_begin(&b->assembly) || b->names == NULL) return error_set_memory(error);
     scene_set_store(b->assembly.scene, registry_store(source->registry));
+    b->instances.parameters = scene_parameters_of(b->assembly.scene);
     return IMP_SUCCESS;
 }
 
@@ -113,6 +115,34 @@ static imp_code find(const scene_bodies *b, const char *name, bool groups, const
     *found = number < 0 ? (scene_members){true, (size_t)(-1 - number)}
                         : (scene_members){false, (size_t)number};
     return IMP_SUCCESS;
+}
+
+/* --- Parameters ------------------------------------------------------------------------------- */
+
+imp_code scene_bodies_parameter(scene_bodies *b, const char *name, double lo, double hi,
+                                const place *at)
+{
+    scene_parameters *known = scene_parameters_of(b->assembly.scene);
+    imp_code code = check_line(b, name, at);
+    if (code != IMP_SUCCESS) return code;
+    if (strcmp(name, "time") == 0 || strchr(name, '=') != NULL)
+        return place_error(
+            at, b->error, IMP_ERROR_SCENE,
+            "got the name \"%.80s\", must be a name other than \"time\", which every "
+            "scene has, and without '='",
+            name);
+    if (!(isfinite(lo) && isfinite(hi) && lo <= hi))
+        return place_error(at, b->error, IMP_ERROR_SCENE,
+                           "got the range [%s, %s], must be finite, [lo, hi] with lo <= hi",
+                           text_of_number(lo).at, text_of_number(hi).at);
+    if (scene_parameters_find(known, name) < known->count)
+        return place_error(at, b->error, IMP_ERROR_SCENE, "'%.80s' is given twice", name);
+    if (known->count == SCENE_PARAMETERS_MAX)
+        return place_error(at, b->error, IMP_ERROR_SCENE,
+                           "found more than %d parameters; that is more than a search over all "
+                           "values can handle",
+                           (int)SCENE_PARAMETERS_MAX);
+    return keep(b, scene_parameters_add(known, name, lo, hi));
 }
 
 /* --- Groups ----------------------------------------------------------------------------------- */

@@ -21,6 +21,10 @@ typedef struct scene_bodies {
 imp_code scene_bodies_start(scene_bodies *b, const scene_source *source, imp_error *error);
 void scene_bodies_clear(scene_bodies *b);
 
+/* Adds a parameter of the scene, before anything that follows it. */
+imp_code scene_bodies_parameter(scene_bodies *b, const char *name, double lo, double hi,
+                                const place *at);
+
 /* Begins a body; its name, or "body0", "body1", ... by position if NULL, must be new. */
 imp_code scene_bodies_begin(scene_bodies *b, const char *name, const place *at);
 

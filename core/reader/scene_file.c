@@ -5,6 +5,7 @@
 #include "core/base/file_text.h"
 #include "core/base/fp_mode.h"
 #include "core/base/text.h"
+#include "core/plugin/json_describe.h"
 #include "core/plugin/parameters.h"
 #include "core/reader/json_keys.h"
 #include "core/reader/json_text.h"
@@ -21,7 +22,7 @@
 
 static const char *const scene_keys[] = {"time",   "gamma",   "gamma_clear", "define", "bodies",
                                          "ignore", "id",      "reference",   "note",   "gravity",
-                                         "events", "plugins", NULL};
+                                         "events", "plugins", "parameters",  NULL};
 static const char *const simulated_keys[] = {"gravity", NULL};
 
 /* --- Settings --------------------------------------------------------------------------------- */
@@ -76,6 +77,31 @@ static imp_code read_settings(scene_bodies *b, const json_t *root, const place *
     return tolerances_check(s->gamma, s->gamma_clear, at, b->error);
 }
 
+/* {"NAME": [lo, hi], ...} */
+static imp_code read_parameters(scene_bodies *b, json_t *root, const place *at)
+{
+    json_t *object = json_object_get(root, "parameters"), *range;
+    const place member = place_key(at, "parameters");
+    const char *name;
+    imp_code code = IMP_SUCCESS;
+    if (object == NULL) return IMP_SUCCESS;
+    if (!json_is_object(object))
+        return place_error(&member, b->error, IMP_ERROR_SCENE,
+                           "got %s, must be an object, {\"NAME\": [lo, hi], ...}",
+                           json_describe(object).at);
+    json_object_foreach(object, name, range)
+    {
+        double to[2] = {0, 0};
+        imp_parameter row = time_row;
+        row.name = name;
+        const place element = place_key(&member, name);
+        code = read_numbers(b, object, &row, &element, to);
+        if (code == IMP_SUCCESS) code = scene_bodies_parameter(b, name, to[0], to[1], &element);
+        if (code != IMP_SUCCESS) return code;
+    }
+    return IMP_SUCCESS;
+}
+
 /* --- Scenes ----------------------------------------------------------------------------------- */
 
 static imp_scene *scene_of(const scene_source *source, json_t *root, const place *at,
@@ -88,6 +114,7 @@ static imp_scene *scene_of(const scene_source *source, json_t *root, const place
     if (code == IMP_SUCCESS) code = json_keys_refuse(root, simulated_keys, at, error);
     if (code == IMP_SUCCESS) code = required_plugins_check(source->registry, root, at, error);
     if (code == IMP_SUCCESS) code = read_settings(&b, root, at);
+    if (code == IMP_SUCCESS) code = read_parameters(&b, root, at);
     if (code == IMP_SUCCESS) code = scene_json_read(&b, root, at);
     if (code == IMP_SUCCESS) return scene_bodies_finish(&b, at);
     scene_bodies_clear(&b);

@@ -5,10 +5,13 @@
 #include "core/reader/scene_instances.h"
 
 #include <stdlib.h>
+#include <string.h>
 
+#include "core/base/text.h"
 #include "core/common/spelling.h"
 #include "core/plugin/json_describe.h"
 #include "core/reader/json_keys.h"
+#include "core/surface/clocked.h"
 
 /* --- Definitions: which there are ------------------------------------------------------------- */
 
@@ -152,12 +155,64 @@ imp_code scene_instances_finish(scene_instances *p)
 
 /* --- Instances -------------------------------------------------------------------------------- */
 
+static imp_code refuse_clock(const scene_instances *p, const json_t *clock, const place *at)
+{
+    const place member = at->argument ? place_argument(at, "clock") : place_key(at, "clock");
+    const char *name = json_string_value(clock);
+    spelling_search search = {.wanted = name};
+    if (name == NULL)
+        return place_error(&member, p->error, IMP_ERROR_SCENE,
+                           "got %s, must be the name of one of the scene's \"parameters\"",
+                           json_describe(clock).at);
+    for (size_t k = 0; k < p->parameters->count; ++k)
+        spelling_offer(&search, p->parameters->at[k].name);
+    if (search.best != NULL)
+        return place_error(&member, p->error, IMP_ERROR_SCENE,
+                           "got \"%.80s\", which is not in \"parameters\"; did you mean '%s'?",
+                           name, search.best);
+    return place_error(&member, p->error, IMP_ERROR_SCENE,
+                       "got \"%.80s\", which is no parameter; must be \"time\" or a name from the "
+                       "scene's \"parameters\": {\"%.80s\": [lo, hi]}",
+                       name, name);
+}
+
+/* Puts what follows a clock, and is held at the middle of its range, in the place of an
+ * instance. */
+static imp_code follow(const scene_instances *p, const json_t *clock, const place *at,
+                       shared_instance **made)
+{
+    const char *name = json_string_value(clock);
+    if (name != NULL && strcmp(name, "time") == 0) return IMP_SUCCESS;
+    const size_t k =
+        name != NULL ? scene_parameters_find(p->parameters, name) : p->parameters->count;
+    if (k == p->parameters->count) return refuse_clock(p, clock, at);
+    scene_parameter *of = &p->parameters->at[k];
+    shared_instance *inner = *made;
+    if (!(inner->lo[2] <= of->lo && of->hi <= inner->hi[2]))
+        return place_error(at, p->error, IMP_ERROR_SCENE,
+                           "follows '%.80s' from %s to %s, but is defined from %s to %s only",
+                           of->name, text_of_number(of->lo).at, text_of_number(of->hi).at,
+                           text_of_number(inner->lo[2]).at, text_of_number(inner->hi[2]).at);
+    of->is_followed = true;
+    *made = clocked_new(inner, k, scene_parameter_middle(of->lo, of->hi));
+    instance_release(inner);
+    return *made != NULL ? IMP_SUCCESS : error_set_memory(p->error);
+}
+
 imp_code scene_instances_make(scene_instances *p, imp_type_kind kind, json_t *object,
                               const place *at, shared_instance **made)
 {
     shared_instance *known = instance_table_find(&p->made, kind, object);
     if (known != NULL) return *made = instance_hold(known), IMP_SUCCESS;
-    const imp_code code = scene_build_shared(&p->source, kind, object, at, made, p->error);
+    const json_t *clock = json_object_get(object, "clock");
+    imp_code code = scene_build_shared(&p->source, kind, object, at, made, p->error);
+    if (code == IMP_SUCCESS && clock != NULL) {
+        code = follow(p, clock, at, made);
+        if (code != IMP_SUCCESS) {
+            instance_release(*made);
+            *made = NULL;
+        }
+    }
     if (code != IMP_SUCCESS || instance_table_add(&p->made, kind, object, *made)) return code;
     instance_release(*made);
     *made = NULL;

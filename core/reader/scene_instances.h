@@ -37,6 +37,7 @@ typedef struct definition {
 
 typedef struct scene_instances {
     scene_source source;
+    scene_parameters *parameters; /* of the scene, which their clocks may name */
     instance_table made;
     definition *definitions;
     size_t count;

@@ -50,6 +50,7 @@ struct imp_scene {
     size_t group_count, group_capacity;
     key_pairs ignored;
     scene_settings settings;
+    scene_parameters parameters;
     uint64_t bytes;      /* 0: not summed up yet */
     double t_from, t_to; /* when all surfaces are defined; not known yet: never */
     scene_remarks remarks;
@@ -102,6 +103,7 @@ void imp_scene_free(imp_scene *scene)
     free(scene->bodies);
     scene_remarks_clear(&scene->remarks);
     key_pairs_clear(&scene->ignored);
+    scene_parameters_clear(&scene->parameters);
     free(scene);
 }
 
@@ -223,6 +225,28 @@ bool scene_ignores(const imp_scene *scene, size_t a, size_t b)
     return false;
 }
 
+static imp_code copy_groups(const imp_scene *from, imp_scene *to)
+{
+    imp_code code = IMP_SUCCESS;
+    for (size_t g = 0; g < from->group_count && code == IMP_SUCCESS; ++g)
+        code = scene_add_group(to, from->groups[g]);
+    for (size_t b = 0; b < from->count; ++b)
+        for (size_t k = 0; k < from->bodies[b].group_count && code == IMP_SUCCESS; ++k)
+            code = scene_join(to, b, from->bodies[b].groups[k]);
+    return code;
+}
+
+imp_code scene_copy_relations(const imp_scene *from, imp_scene *to)
+{
+    assert(from->count == to->count);
+    imp_code code = copy_groups(from, to);
+    for (size_t k = 0; k < from->ignored.count && code == IMP_SUCCESS; ++k) {
+        const size_t *key = from->ignored.at[k].key;
+        if (!key_pairs_add(&to->ignored, key[0], key[1])) code = IMP_ERROR_MEMORY;
+    }
+    return code;
+}
+
 /* --- Memory ----------------------------------------------------------------------------------- */
 
 static uint64_t sum_of_bytes(const imp_scene *scene)
@@ -284,6 +308,35 @@ bool scene_is_defined(const imp_scene *scene, double t_start, double t_end)
 /* --- Asking ----------------------------------------------------------------------------------- */
 
 scene_settings *scene_settings_of(imp_scene *scene) { return &scene->settings; }
+
+const scene_settings *scene_settings_read(const imp_scene *scene) { return &scene->settings; }
+
+scene_parameters *scene_parameters_of(imp_scene *scene) { return &scene->parameters; }
+
+const scene_parameters *scene_parameters_read(const imp_scene *scene) { return &scene->parameters; }
+
+imp_code scene_refuse_parameters(const imp_scene *scene, const char *asker, imp_error *error)
+{
+    if (scene->parameters.count == 0) return IMP_SUCCESS;
+    return error_set(error, IMP_ERROR_USAGE,
+                     "the scene has parameters ('%.80s'), and %s asks about one pose of them: ask "
+                     "about all values (imp_survey_new), or make the scene at some "
+                     "(imp_scene_at)",
+                     scene->parameters.at[0].name, asker);
+}
+
+size_t imp_scene_parameter_count(const imp_scene *scene)
+{
+    return scene != NULL ? scene->parameters.count : 0;
+}
+
+bool imp_scene_parameter(const imp_scene *scene, size_t index, imp_scene_parameter_info *info)
+{
+    if (index >= imp_scene_parameter_count(scene) || info == NULL) return false;
+    const scene_parameter *p = &scene->parameters.at[index];
+    *info = (imp_scene_parameter_info){p->name, p->lo, p->hi, p->is_followed};
+    return true;
+}
 
 size_t scene_body_count(const imp_scene *scene) { return scene->count; }
 

@@ -4,6 +4,7 @@
 #define CORE_SCENE_SCENE_H
 
 #include "core/base/arena_store.h"
+#include "core/scene/scene_parameters.h"
 #include "core/surface/surface.h"
 
 /* Bodies and their surfaces, the groups they are in, and who ignores whom. Built by assembly, read
@@ -68,6 +69,18 @@ typedef struct scene_settings {
     double t_start, t_end, gamma, gamma_clear;
 } scene_settings;
 scene_settings *scene_settings_of(imp_scene *scene);
+const scene_settings *scene_settings_read(const imp_scene *scene);
+
+/* The parameters of the scene, none at first. */
+scene_parameters *scene_parameters_of(imp_scene *scene);
+const scene_parameters *scene_parameters_read(const imp_scene *scene);
+
+/* IMP_ERROR_USAGE if the scene has parameters, which `asker` does not handle. */
+imp_code scene_refuse_parameters(const imp_scene *scene, const char *asker, imp_error *error);
+
+/* Gives the bodies of `to`, which are those of `from` in the same order, their groups, and copies
+ * who ignores whom. */
+imp_code scene_copy_relations(const imp_scene *from, imp_scene *to);
 
 /* What imp_options_default answers. */
 void scene_options(const imp_scene *scene, imp_options *options);

@@ -59,6 +59,7 @@ FP_APART static imp_query *new_query(imp_scene *scene, const imp_options *given,
     if (tolerances_check(options->gamma, options->gamma_clear, NULL, error) != IMP_SUCCESS)
         return NULL;
     const double gamma_clear = tolerances_clear(options->gamma, options->gamma_clear);
+    if (scene_refuse_parameters(scene, "a query", error) != IMP_SUCCESS) return NULL;
     if (check_options(scene, options, error) != IMP_SUCCESS) return NULL;
     examined_times examined;
     if (examined_times_find(scene, options->t_start, options->t_end, &examined, error) !=

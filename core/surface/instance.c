@@ -190,6 +190,7 @@ void instance_release(shared_instance *p)
     free(p->label);
     free(p->note);
     free(p->numbers.number);
+    instance_release(p->inner);
     free(p);
 }
 
@@ -218,6 +219,7 @@ bool instance_set_label(shared_instance *p, const char label[INSTANCE_LABEL_MAX]
 const char *instance_label(const shared_instance *p)
 {
     if (p->label != NULL) return p->label;
+    if (p->inner != NULL) return instance_label(p->inner);
     return p->surface != NULL ? p->surface->name : p->map->name;
 }
 

@@ -56,6 +56,9 @@ typedef struct shared_instance {
     char *note;            /* the items, with the parameter's name; NULL: none */
     fixed_numbers numbers; /* for its formula */
     instance_shelf *shelf; /* of a surface of several pieces; else NULL */
+    /* Under the clock of a scene parameter (clocked.h); held. NULL: it follows time. */
+    struct shared_instance *inner;
+    size_t clock; /* the parameter's index in the scene */
 } shared_instance;
 
 /* Take ownership of the instance `self` and get its domain, or those of its pieces, which have the

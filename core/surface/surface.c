@@ -114,11 +114,13 @@ size_t surface_bytes(const surface *s)
 
 shared_instance *surface_share(const surface *s) { return instance_hold(s->origin); }
 
-const shared_instance *surface_origin(const surface *s, size_t k)
+shared_instance *surface_stage(const surface *s, size_t k)
 {
     assert(k <= s->map_count);
     return k == 0 ? s->origin : s->maps[k - 1].origin;
 }
+
+const shared_instance *surface_origin(const surface *s, size_t k) { return surface_stage(s, k); }
 
 size_t surface_piece_count(const surface *s) { return s->piece_count; }
 

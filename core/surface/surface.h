@@ -257,6 +257,9 @@ size_t surface_map_count(const surface *s);
  * surface_map_count. */
 const shared_instance *surface_origin(const surface *s, size_t k);
 
+/* Like surface_origin, to be held by other surfaces. */
+shared_instance *surface_stage(const surface *s, size_t k);
+
 /* Counts the maps, from the first one on, whose rotation is constant during the region's times.
  * Precondition: surface_has_distance. */
 imp_status surface_still_maps(const surface *s, const imp_region *region, size_t *count);

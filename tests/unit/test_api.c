@@ -24,6 +24,9 @@ static imp_options options_none, options_good, options_wild;
 static imp_result result_none, result_good, result_wild;
 static imp_clearance_options asked_none, asked_good, asked_wild;
 static imp_clearance answer_none, answer_good, answer_wild;
+static imp_survey_options how_none, how_good, how_wild;
+static imp_survey_state state_none, state_good, state_wild;
+static imp_scene_parameter_info parameter_place;
 static imp_argument argument_none;
 static imp_instance instance_none;
 static imp_model models[4];
@@ -61,6 +64,7 @@ static imp_registry *of_imp_registry_p[2];
 static imp_scene *of_imp_scene_p[2];
 static imp_query *of_imp_query_p[4]; /* new, answered, of a clearance, divided */
 static imp_builder *of_imp_builder_p[2];
+static imp_survey *of_imp_survey_p[3]; /* for a contact, for a clearance */
 static const imp_call *of_imp_call_p[2];
 static imp_error *const of_imp_error_p[] = {NULL, &error_place};
 static imp_options *const of_imp_options_p[] = {NULL, &options_none, &options_good, &options_wild};
@@ -68,6 +72,11 @@ static imp_result *const of_imp_result_p[] = {NULL, &result_none, &result_good, 
 static imp_clearance_options *const of_imp_clearance_options_p[] = {NULL, &asked_none, &asked_good,
                                                                     &asked_wild};
 static imp_clearance *const of_imp_clearance_p[] = {NULL, &answer_none, &answer_good, &answer_wild};
+static imp_survey_options *const of_imp_survey_options_p[] = {NULL, &how_none, &how_good,
+                                                              &how_wild};
+static imp_survey_state *const of_imp_survey_state_p[] = {NULL, &state_none, &state_good,
+                                                          &state_wild};
+static imp_scene_parameter_info *const of_imp_scene_parameter_info_p[] = {NULL, &parameter_place};
 static imp_argument *const of_imp_argument_p[] = {NULL, &argument_none};
 static imp_instance *const of_imp_instance_p[] = {NULL, &instance_none};
 static imp_model *const of_imp_model_p[] = {NULL, models};
@@ -110,6 +119,7 @@ static const imp_type_kind of_imp_type_kind[] = {IMP_TYPE_SURFACE, IMP_TYPE_MAP,
 static bool drop_registry(imp_registry *made) { return imp_registry_free(made), made == NULL; }
 static bool drop_scene(imp_scene *made) { return imp_scene_free(made), made == NULL; }
 static bool drop_query(imp_query *made) { return imp_query_free(made), made == NULL; }
+static bool drop_survey(imp_survey *made) { return imp_survey_free(made), made == NULL; }
 static bool drop_builder(imp_builder *made) { return imp_builder_free(made), made == NULL; }
 
 static bool drop_text(char *made) { return free(made), made == NULL; }
@@ -129,6 +139,8 @@ static void *volatile kept;
 #define API_REFUSED_imp_registry_p(ANSWER) drop_registry(ANSWER)
 #define API_REFUSED_imp_scene_p(ANSWER) drop_scene(ANSWER)
 #define API_REFUSED_imp_query_p(ANSWER) drop_query(ANSWER)
+#define API_REFUSED_imp_survey_p(ANSWER) drop_survey(ANSWER)
+#define API_REFUSED_imp_survey_options(ANSWER) KEEP(imp_survey_options, ANSWER)
 #define API_REFUSED_imp_builder_p(ANSWER) drop_builder(ANSWER)
 /* What answers nothing, a number or a struct cannot refuse. */
 #define API_REFUSED_void(ANSWER) (ANSWER, true)
@@ -168,6 +180,8 @@ static void make_places(void)
     MAKE_SIZED(imp_result, result);
     MAKE_SIZED(imp_clearance_options, asked);
     MAKE_SIZED(imp_clearance, answer);
+    MAKE_SIZED(imp_survey_options, how);
+    MAKE_SIZED(imp_survey_state, state);
     instance_none = (imp_instance){NULL, NULL, NULL};
 }
 
@@ -191,6 +205,9 @@ static void make_objects(void)
     of_imp_query_p[3] = imp_query_new(of_imp_scene_p[1], &options, &why);
     ck_assert_int_eq(imp_query_divide(of_imp_query_p[3], &parts, &why), IMP_SUCCESS);
     ck_assert_int_eq(imp_builder_body(of_imp_builder_p[1], "body", NULL, &why), IMP_SUCCESS);
+    of_imp_survey_p[1] = imp_survey_new(of_imp_scene_p[1], &options, NULL, NULL, &why);
+    const imp_clearance_options asked = imp_clearance_options_default();
+    of_imp_survey_p[2] = imp_survey_new(of_imp_scene_p[1], &options, &asked, NULL, &why);
     of_imp_call_p[1] = imp_call_of_thread();
 }
 
@@ -199,7 +216,7 @@ static void make_objects(void)
 static bool is_object(const char *type)
 {
     static const char *const objects[] = {"imp_registry_p", "imp_scene_p", "imp_query_p",
-                                          "imp_builder_p", "imp_call_p"};
+                                          "imp_builder_p",  "imp_call_p",  "imp_survey_p"};
     for (size_t k = 0; k < sizeof objects / sizeof *objects; ++k)
         if (strcmp(type, objects[k]) == 0) return true;
     return false;

@@ -18,6 +18,7 @@
 #include "tools/cli/progress.h"
 #include "tools/cli/proof_output.h"
 #include "tools/cli/result.h"
+#include "tools/cli/survey.h"
 #include "tools/cli/verbs.h"
 
 #include <impinge/baseline.h>
@@ -283,22 +284,52 @@ exit_status query_answer(imp_scene *scene, const imp_error *error, const argumen
 {
     if (scene == NULL) return complain_of(error, args->verb->name);
     interrupt_prepare();
-    const exit_status status = answer(scene, args);
+    const exit_status status =
+        survey_is_needed(scene, args) ? survey_contact(scene, args) : answer(scene, args);
     imp_scene_free(scene);
     return status;
 }
 
-/* Files are read by the library; standard input is read here, whole. */
-static imp_scene *scene_of_standard_input(imp_registry *registry, const arguments *args,
-                                          bool *complained, imp_error *error)
+/* Makes a scene of a text, which it frees, with the parameters of the command line. */
+static imp_scene *scene_of_text(imp_registry *registry, char *text, size_t length, const char *name,
+                                const arguments *args, bool *complained, imp_error *error)
+{
+    if (arguments_option(args, "parameter") != NULL)
+        text = survey_add_parameters(text, &length, args);
+    *complained = text == NULL;
+    imp_scene *scene =
+        text != NULL ? imp_scene_from_json(registry, text, length, name, error) : NULL;
+    free(text);
+    return scene;
+}
+
+/* Files are read by the library, unless parameters are put into them; standard input is read here,
+ * whole. */
+static imp_scene *scene_of_file(imp_registry *registry, const char *path, const arguments *args,
+                                bool *complained, imp_error *error)
 {
     input_text t = {0};
-    imp_scene *scene = NULL;
-    const char *name = input_name("-");
-    *complained = !input_read(stdin, name, args->verb->name, &t);
-    if (!*complained) scene = imp_scene_from_json(registry, t.text, t.length, name, error);
+    const char *name = input_name(path);
+    FILE *file = input_open(path, args->verb->name);
+    *complained = file == NULL;
+    if (file == NULL) return NULL;
+    *complained = !input_read(file, name, args->verb->name, &t);
+    input_close(file);
+    if (!*complained)
+        return scene_of_text(registry, t.text, t.length, name, args, complained, error);
     free(t.text);
-    return scene;
+    return NULL;
+}
+
+static imp_scene *scene_of_pair(imp_registry *registry, const arguments *args, bool *complained,
+                                imp_error *error)
+{
+    const char *a = args->operands[0], *b = args->operands[1];
+    if (arguments_option(args, "parameter") == NULL)
+        return imp_scene_from_pair(registry, a, b, error);
+    char *text = imp_pair_to_json(registry, a, b, error);
+    if (text == NULL) return NULL;
+    return scene_of_text(registry, text, strlen(text), "the command line", args, complained, error);
 }
 
 void query_warn(const imp_scene *scene, const arguments *args)
@@ -313,11 +344,10 @@ static imp_scene *read_scene(imp_registry *registry, const arguments *args, bool
                              imp_error *error)
 {
     *complained = false;
-    if (args->operand_count == 2)
-        return imp_scene_from_pair(registry, args->operands[0], args->operands[1], error);
-    return strcmp(args->operands[0], "-") == 0
-               ? scene_of_standard_input(registry, args, complained, error)
-               : imp_scene_from_file(registry, args->operands[0], error);
+    if (args->operand_count == 2) return scene_of_pair(registry, args, complained, error);
+    if (strcmp(args->operands[0], "-") == 0 || arguments_option(args, "parameter") != NULL)
+        return scene_of_file(registry, args->operands[0], args, complained, error);
+    return imp_scene_from_file(registry, args->operands[0], error);
 }
 
 imp_scene *query_scene(imp_registry *registry, const arguments *args, bool *complained,

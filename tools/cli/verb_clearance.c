@@ -15,6 +15,7 @@
 #include "tools/cli/proof_output.h"
 #include "tools/cli/query.h"
 #include "tools/cli/result.h"
+#include "tools/cli/survey.h"
 #include "tools/cli/verbs.h"
 
 /* Pairs between two checks for finished answers: some milliseconds. */
@@ -294,6 +295,10 @@ static exit_status measure(measuring *m)
 static exit_status measure_scene(imp_scene *scene, const arguments *args)
 {
     imp_error error = {0};
+    if (survey_is_needed(scene, args)) {
+        const imp_clearance_options asked = asked_for(args);
+        return survey_clearance(scene, &asked, args);
+    }
     const imp_options options = query_options(scene, args);
     measuring m = {.args = args,
                    .scene = scene,
@@ -360,8 +365,9 @@ static const option clearance_options[] = {
      .help = "measure N equal slices of time, as CSV or, with --json, JSON lines"},
     {.name = NULL}};
 
-static const option *const tables[] = {clearance_options, options_proof,  options_search,
-                                       options_registry,  options_always, NULL};
+static const option *const tables[] = {
+    clearance_options, options_parameters, options_survey, options_proof,
+    options_search,    options_registry,   options_always, NULL};
 
 const verb verb_clearance = {
     .name = "clearance",

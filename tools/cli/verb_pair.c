@@ -4,6 +4,7 @@
 
 #include "tools/cli/proof_output.h"
 #include "tools/cli/query.h"
+#include "tools/cli/survey.h"
 #include "tools/cli/verbs.h"
 
 static exit_status run(const arguments *args)
@@ -13,16 +14,16 @@ static exit_status run(const arguments *args)
     imp_registry *registry = query_registry(args);
     if (registry == NULL) return EXIT_DATA;
     imp_error error = {0};
-    imp_scene *scene = imp_scene_from_pair(registry, args->operands[0], args->operands[1], &error);
-    query_warn(scene, args);
-    const exit_status status = query_answer(scene, &error, args);
+    bool complained;
+    imp_scene *scene = query_scene(registry, args, &complained, &error);
+    const exit_status status = complained ? EXIT_DATA : query_answer(scene, &error, args);
     query_registry_free(registry);
     return status;
 }
 
-static const option *const tables[] = {
-    options_explain, options_proof, options_search, options_query, options_registry,
-    options_always,  NULL};
+static const option *const tables[] = {options_parameters, options_survey, options_explain,
+                                       options_proof,      options_search, options_query,
+                                       options_registry,   options_always, NULL};
 
 const verb verb_pair = {
     .name = "pair",

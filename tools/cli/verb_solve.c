@@ -7,12 +7,14 @@
 #include "tools/cli/proof_output.h"
 #include "tools/cli/query.h"
 #include "tools/cli/series.h"
+#include "tools/cli/survey.h"
 #include "tools/cli/verbs.h"
 
 static exit_status answer(imp_scene *scene, const imp_error *error, const arguments *args)
 {
     const bool by_pairs = arguments_option(args, "each") != NULL;
-    if (scene == NULL || !(by_pairs || arguments_option(args, "refine") != NULL))
+    if (scene == NULL || imp_scene_parameter_count(scene) > 0 ||
+        !(by_pairs || arguments_option(args, "refine") != NULL))
         return query_answer(scene, error, args);
     interrupt_prepare();
     const exit_status status = by_pairs ? each_answer(scene, args) : series_answer(scene, args);
@@ -36,8 +38,8 @@ static exit_status run(const arguments *args)
 }
 
 static const option *const tables[] = {
-    options_series, options_explain,  options_proof,  options_search,
-    options_query,  options_registry, options_always, NULL};
+    options_series, options_parameters, options_survey,   options_explain, options_proof,
+    options_search, options_query,      options_registry, options_always,  NULL};
 
 const verb verb_solve = {
     .name = "solve",

@@ -1,0 +1,42 @@
+/* SPDX-FileCopyrightText: The Impinge authors
+ * SPDX-License-Identifier: Apache-2.0 */
+#ifndef CORE_SURFACE_SURFACE_SHIFT_H
+#define CORE_SURFACE_SURFACE_SHIFT_H
+
+#include "core/surface/surface.h"
+
+/* How far scene parameters move a surface
+ * =======================================
+ * A surface whose stages follow parameters (clocked.h) is somewhere else at other values. Over a
+ * box of values this file bounds by how much each parameter moves any point, and in which box of
+ * space the surface stays. */
+
+/* A box of values, the values at which the surface stands, and the times. */
+typedef struct value_box {
+    size_t count; /* number of parameters */
+    const double *lo, *hi;
+    const double *at; /* lo <= at <= hi */
+    double t_start, t_end;
+} value_box;
+
+/* The surface before its maps, at all times and values of a box. */
+typedef struct surface_extent {
+    double lo[3], hi[3]; /* infinite: it is not bounded */
+    double speed;        /* length per unit of its clock; 0: it follows time */
+} surface_extent;
+
+/* A status other than OK is a fault of the type. */
+imp_status surface_extent_find(const surface *s, const value_box *box, surface_extent *extent);
+
+/* Bounds, for the surface without its last `left_out` maps, shift[k] >= the length by which any
+ * point of it moves for parameter k alone, from the values `at` to any in the box: together they
+ * move it by the sum at most. `image` becomes a box that holds it at all times and values. The
+ * extent is that of this box or of a larger one. INFINITY: no bound. A status other than OK is a
+ * fault of a map. */
+typedef struct surface_image {
+    double lo[3], hi[3];
+} surface_image;
+imp_status surface_shift_upper(const surface *s, const surface_extent *extent, size_t left_out,
+                               const value_box *box, double *shift, surface_image *image);
+
+#endif

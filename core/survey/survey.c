@@ -1,0 +1,246 @@
+/* SPDX-FileCopyrightText: The Impinge authors
+ * SPDX-License-Identifier: Apache-2.0 */
+#include <config.h>
+
+#include <stdlib.h>
+#include <string.h>
+
+#include "core/base/fp_mode.h"
+#include "core/base/sized.h"
+#include "core/base/status.h"
+#include "core/common/clock.h"
+#include "core/scene/tolerances.h"
+#include "core/survey/survey_internal.h"
+
+/* --- What is asked ---------------------------------------------------------------------------- */
+
+/* Bytes of the first versions. */
+#define HOW_FIRST sizeof(imp_survey_options)
+#define ASKED_FIRST offsetof(imp_clearance_options, decide)
+
+static const imp_survey_options usual = {.struct_size = (uint32_t)sizeof usual,
+                                         .body = {SIZE_MAX, SIZE_MAX}};
+
+imp_code imp_survey_options_get_default(imp_survey_options *how, imp_error *error)
+{
+    const imp_code code = sized_check("imp_survey_options", how, HOW_FIRST, error);
+    if (code == IMP_SUCCESS) sized_write(how, &usual);
+    return code;
+}
+
+static imp_code check_options(const imp_scene *scene, const imp_options *options, imp_error *error)
+{
+    if (scene_check_times(scene, options->t_start, options->t_end, error) != IMP_SUCCESS)
+        return IMP_ERROR_SCENE;
+    if (!(options->t_start <= options->t_end && options->t_start > -INFINITY &&
+          options->t_end < INFINITY))
+        return error_set(error, IMP_ERROR_USAGE, "time: got [%g, %g], must be finite and not empty",
+                         options->t_start, options->t_end);
+    if (!(options->max_seconds >= 0))
+        return error_set(error, IMP_ERROR_USAGE, "max_seconds: got %g, must be >= 0",
+                         options->max_seconds);
+    if (options->baseline != 0)
+        return error_set(error, IMP_ERROR_USAGE, "baseline: got 0x%lx, must be 0 for a survey",
+                         (unsigned long)options->baseline);
+    return tolerances_check(options->gamma, options->gamma_clear, NULL, error);
+}
+
+static imp_code check_bodies(const imp_scene *scene, const size_t body[2], imp_error *error)
+{
+    const size_t count = scene_body_count(scene);
+    if (body[0] == SIZE_MAX && body[1] == SIZE_MAX) return IMP_SUCCESS;
+    if (body[0] < count && body[1] < count && body[0] != body[1]) return IMP_SUCCESS;
+    return error_set(error, IMP_ERROR_USAGE,
+                     "body: got %zu and %zu, must be two of the scene's %zu, or SIZE_MAX twice",
+                     body[0], body[1], count);
+}
+
+static imp_code check_asked(const imp_clearance_options *asked, imp_error *error)
+{
+    if (asked->each || asked->slices != 1 || asked->within > 0)
+        return error_set(error, IMP_ERROR_USAGE,
+                         "a survey answers one clearance: each must be false, slices 1, within 0");
+    if (!(asked->tolerance >= 1e-9 && asked->tolerance < 1))
+        return error_set(error, IMP_ERROR_USAGE, "tolerance: got %g, must be from 1e-9 to below 1",
+                         asked->tolerance);
+    if (!(asked->required >= 0 && asked->required < INFINITY))
+        return error_set(error, IMP_ERROR_USAGE, "required: got %g, must be >= 0 and finite",
+                         asked->required);
+    return IMP_SUCCESS;
+}
+
+/* --- Creation and destruction ----------------------------------------------------------------- */
+
+/* One block of numbers: ranges, the values of the incumbent, the box in question (survey_box.c),
+ * and shifts. False: no memory. */
+static bool make_room(imp_survey *s)
+{
+    const size_t n = scene_parameters_read(s->scene)->count;
+    double *block = calloc(11 * n + 1, sizeof *block);
+    if (block == NULL) return false;
+    s->count = n;
+    s->lo = block;
+    s->hi = block + n;
+    s->best.values = block + 2 * n;
+    for (int k = 0; k < 3; ++k) s->shift[k] = block + (3 + (size_t)k) * n;
+    s->at = block + 6 * n; /* 5 n: middle, lo, hi; lo, hi of a box that is told */
+    for (size_t k = 0; k < n; ++k) {
+        s->lo[k] = scene_parameters_read(s->scene)->at[k].lo;
+        s->hi[k] = scene_parameters_read(s->scene)->at[k].hi;
+    }
+    return true;
+}
+
+/* What is required, and nothing else, is a search for any contact at that distance. */
+static void set_aims(imp_survey *s)
+{
+    const bool decides = s->is_clearance && s->asked.decide && s->asked.required > 0;
+    s->is_distance = s->is_clearance && !decides;
+    s->gamma = s->options.gamma;
+    s->gamma_clear = tolerances_clear(s->options.gamma, s->options.gamma_clear);
+    if (!decides) return;
+    s->gamma = s->asked.required;
+    s->gamma_clear = s->asked.required * (1 - 1e-6);
+    s->how.any = true;
+}
+
+FP_APART static imp_code fill(imp_survey *s, imp_scene *scene, const imp_options *options,
+                              const imp_clearance_options *asked, const imp_survey_options *how,
+                              imp_error *error)
+{
+    *s = (imp_survey){.scene = scene,
+                      .is_clearance = asked != NULL,
+                      .asked = imp_clearance_options_default(),
+                      .how = usual,
+                      .best = {.t = INFINITY, .distance = INFINITY},
+                      .settled = INFINITY,
+                      .verdict = IMP_VERDICT_UNDECIDED,
+                      .reason = IMP_REASON_RUNNING};
+    scene_options(scene, &s->options);
+    imp_code code = sized_read("imp_options", &s->options, options, SCENE_OPTIONS_FIRST, error);
+    if (code == IMP_SUCCESS && asked != NULL)
+        code = sized_read("imp_clearance_options", &s->asked, asked, ASKED_FIRST, error);
+    if (code == IMP_SUCCESS && how != NULL)
+        code = sized_read("imp_survey_options", &s->how, how, HOW_FIRST, error);
+    if (code == IMP_SUCCESS) code = check_options(scene, &s->options, error);
+    if (code == IMP_SUCCESS) code = check_asked(&s->asked, error);
+    if (code == IMP_SUCCESS) code = check_bodies(scene, s->how.body, error);
+    if (code == IMP_SUCCESS && !make_room(s)) code = error_set_memory(error);
+    if (code != IMP_SUCCESS) return code;
+    set_aims(s);
+    code = survey_find_pairs(s, error);
+    return code == IMP_SUCCESS ? survey_add_roots(s, error) : code;
+}
+
+imp_survey *imp_survey_new(imp_scene *scene, const imp_options *options,
+                           const imp_clearance_options *asked, const imp_survey_options *how,
+                           imp_error *error)
+{
+    imp_survey *s = scene != NULL && options != NULL ? malloc(sizeof *s) : NULL;
+    if (scene == NULL || options == NULL) return error_set_missing(error, "imp_survey_new"), NULL;
+    if (s == NULL) return error_set_memory(error), NULL;
+    const fp_environment environment = fp_environment_enter();
+    const imp_code code = fill(s, scene, options, asked, how, error);
+    fp_environment_leave(&environment);
+    if (code == IMP_SUCCESS) return s;
+    imp_survey_free(s);
+    return NULL;
+}
+
+void imp_survey_free(imp_survey *s)
+{
+    if (s == NULL) return;
+    box_queue_clear(&s->queue);
+    free(s->pairs);
+    free(s->extents);
+    free(s->first);
+    free(s->lo);
+    free(s);
+}
+
+void imp_survey_cancel(imp_survey *survey)
+{
+    if (survey != NULL) atomic_store(&survey->cancelled, true);
+}
+
+/* --- Stepping --------------------------------------------------------------------------------- */
+
+/* Returns the limit that is reached, or NONE. */
+static imp_reason exhausted(imp_survey *s)
+{
+    const imp_options *options = &s->options;
+    if (atomic_exchange(&s->cancelled, false)) return IMP_REASON_CANCELLED;
+    if (options->max_pairs > 0 && s->stats.pairs >= options->max_pairs) return IMP_REASON_PAIRS;
+    if (s->how.max_boxes > 0 && s->boxes >= s->how.max_boxes) return IMP_REASON_PAIRS;
+    if (options->max_seconds > 0 && s->stats.seconds >= options->max_seconds)
+        return IMP_REASON_SECONDS;
+    if (options->max_bytes > 0 && s->stats.bytes > options->max_bytes) return IMP_REASON_MEMORY;
+    return IMP_REASON_NONE;
+}
+
+/* Whether no box that waits can change the answer. */
+static bool is_decided(const imp_survey *s)
+{
+    const survey_box *first = box_queue_first(&s->queue);
+    if (first == NULL) return true;
+    if (!s->is_distance) return first->key >= s->best.t;
+    return first->key >= survey_distance_enough(s) || s->best.distance <= s->gamma;
+}
+
+/* Tells the sink what is left, in the order of keys, and empties the queue unless boxes wait for a
+ * longer search. */
+static void tell_rest(const imp_survey *s)
+{
+    for (size_t k = 0; k < s->queue.count; ++k) {
+        const survey_box *box = s->queue.at[k];
+        survey_tell(s, box, s->is_distance ? s->options.t_start : box->key, s->options.t_end,
+                    IMP_VERDICT_UNDECIDED, 0);
+    }
+}
+
+static void conclude(imp_survey *s)
+{
+    s->reason = IMP_REASON_NONE;
+    s->verdict = s->best.t < INFINITY ? IMP_VERDICT_CONTACT : IMP_VERDICT_CLEAR;
+}
+
+/* Asks about the next boxes. */
+FP_APART static imp_code step(imp_survey *s, uint64_t boxes, imp_error *error)
+{
+    const uint64_t last = s->boxes + boxes;
+    imp_code code = IMP_SUCCESS;
+    s->reason = IMP_REASON_RUNNING;
+    while (code == IMP_SUCCESS && s->reason == IMP_REASON_RUNNING) {
+        s->stats.seconds = survey_seconds(s);
+        if (is_decided(s)) {
+            conclude(s);
+        } else if (boxes > 0 && s->boxes >= last) {
+            return IMP_SUCCESS;
+        } else {
+            const imp_reason limit = exhausted(s);
+            if (limit != IMP_REASON_NONE)
+                s->reason = limit;
+            else
+                code = survey_ask(s, box_queue_pop(&s->queue), error);
+        }
+    }
+    if (code == IMP_SUCCESS && s->reason == IMP_REASON_NONE) conclude(s);
+    s->stats.seconds = survey_seconds(s);
+    if (code == IMP_SUCCESS) tell_rest(s);
+    return code;
+}
+
+imp_code imp_survey_step(imp_survey *s, uint64_t boxes, imp_error *error)
+{
+    if (s == NULL) return error_set_missing(error, "imp_survey_step");
+    if (s->failed)
+        return error_set(error, IMP_ERROR_USAGE, "this survey has ended with an error already");
+    if (s->reason == IMP_REASON_NONE) return IMP_SUCCESS;
+    const fp_environment environment = fp_environment_enter();
+    s->step_from[0] = s->stats.seconds;
+    s->step_from[1] = clock_seconds();
+    const imp_code code = step(s, boxes, error);
+    s->failed = code != IMP_SUCCESS;
+    fp_environment_leave(&environment);
+    return code;
+}

@@ -1,0 +1,171 @@
+/* SPDX-FileCopyrightText: The Impinge authors
+ * SPDX-License-Identifier: Apache-2.0 */
+#include <config.h>
+
+#include <string.h>
+
+#include "core/base/sized.h"
+#include "core/base/status.h"
+#include "core/survey/survey_internal.h"
+
+/* Returns the time before which nothing is near at any values. */
+static double t_lower_of(const imp_survey *s)
+{
+    const survey_box *first = box_queue_first(&s->queue);
+    double t = s->best.t < s->options.t_end ? s->best.t : s->options.t_end;
+    if (first != NULL && first->key < t) t = first->key;
+    return t;
+}
+
+static imp_result result_of(const imp_survey *s)
+{
+    imp_result r = s->best.contact;
+    const bool is_contact = s->verdict == IMP_VERDICT_CONTACT;
+    if (!is_contact) r = (imp_result){.t = NAN, .gap = NAN};
+    r.struct_size = (uint32_t)sizeof r;
+    r.verdict = s->verdict;
+    r.reason = s->reason;
+    r.t_lower = s->how.any && is_contact ? r.t : t_lower_of(s);
+    r.gamma = s->gamma;
+    r.gamma_clear = s->gamma_clear;
+    r.stats = s->stats;
+    r.t_start = r.t_examined[0] = s->options.t_start;
+    r.t_end = r.t_examined[1] = s->options.t_end;
+    return r;
+}
+
+static imp_code refuse_kind(const char *wanted, imp_error *error)
+{
+    return error_set(error, IMP_ERROR_USAGE, "this survey is for %s", wanted);
+}
+
+imp_code imp_survey_get_result(const imp_survey *s, imp_result *result, imp_error *error)
+{
+    if (s == NULL) return error_set_missing(error, "imp_survey_get_result");
+    const imp_code code = sized_check("imp_result", result, offsetof(imp_result, kind), error);
+    if (code != IMP_SUCCESS) return code;
+    if (s->is_clearance) return refuse_kind("a clearance: imp_survey_get_clearance", error);
+    const imp_result own = result_of(s);
+    sized_write(result, &own);
+    return IMP_SUCCESS;
+}
+
+/* --- Clearances ------------------------------------------------------------------------------- */
+
+static double lower_of(const imp_survey *s)
+{
+    const survey_box *first = box_queue_first(&s->queue);
+    double lower = s->settled < s->best.distance ? s->settled : s->best.distance;
+    if (first != NULL && first->key < lower) lower = first->key;
+    return lower;
+}
+
+static imp_clearance bracket_of(const imp_survey *s)
+{
+    imp_clearance c = s->best.nearest;
+    const double required = s->asked.required;
+    if (!s->best.is_known) c = (imp_clearance){.t = NAN, .has_witness = false};
+    c.lower = lower_of(s);
+    c.upper = s->best.distance;
+    c.verdict = !(required > 0)                    ? IMP_REQUIREMENT_NONE
+                : c.upper <= required              ? IMP_REQUIREMENT_VIOLATED
+                : c.lower >= required * (1 - 1e-6) ? IMP_REQUIREMENT_HOLDS
+                                                   : IMP_REQUIREMENT_UNDECIDED;
+    c.t_violated = c.gap_violated = NAN;
+    if (c.verdict != IMP_REQUIREMENT_VIOLATED) return c;
+    c.t_violated = c.t;
+    c.gap_violated = c.upper;
+    c.a_violated = c.a;
+    c.b_violated = c.b;
+    return c;
+}
+
+/* Of a search for any contact at the required distance. */
+static imp_clearance decision_of(const imp_survey *s)
+{
+    const imp_result *r = &s->best.contact;
+    imp_clearance c = {.t = NAN, .upper = INFINITY, .t_violated = NAN, .gap_violated = NAN};
+    c.verdict = s->verdict == IMP_VERDICT_CLEAR     ? IMP_REQUIREMENT_HOLDS
+                : s->verdict == IMP_VERDICT_CONTACT ? IMP_REQUIREMENT_VIOLATED
+                                                    : IMP_REQUIREMENT_UNDECIDED;
+    if (c.verdict == IMP_REQUIREMENT_HOLDS) c.lower = s->gamma_clear;
+    if (c.verdict != IMP_REQUIREMENT_VIOLATED) return c;
+    c.has_witness = true;
+    c.has_normal = r->has_normal;
+    memcpy(c.normal, r->normal, sizeof c.normal);
+    c.t = c.t_violated = r->t;
+    c.gap_violated = r->gap;
+    c.upper = r->kind == IMP_CONTACT_INSIDE ? 0 : s->gamma;
+    c.kind = r->kind;
+    c.a = c.a_violated = r->a;
+    c.b = c.b_violated = r->b;
+    return c;
+}
+
+imp_code imp_survey_get_clearance(const imp_survey *s, imp_clearance *answer, imp_error *error)
+{
+    if (s == NULL) return error_set_missing(error, "imp_survey_get_clearance");
+    const imp_code code = sized_check("imp_clearance", answer, sizeof *answer, error);
+    if (code != IMP_SUCCESS) return code;
+    if (!s->is_clearance) return refuse_kind("a contact: imp_survey_get_result", error);
+    imp_clearance own = s->is_distance ? bracket_of(s) : decision_of(s);
+    own.struct_size = (uint32_t)sizeof own;
+    own.reason = s->reason;
+    own.body[0] = s->how.body[0], own.body[1] = s->how.body[1];
+    own.t_start = s->options.t_start, own.t_end = s->options.t_end;
+    own.required = s->asked.required;
+    own.stats = s->stats;
+    sized_write(answer, &own);
+    return IMP_SUCCESS;
+}
+
+/* --- Values ----------------------------------------------------------------------------------- */
+
+bool imp_survey_values(const imp_survey *s, double *values)
+{
+    if (s == NULL || values == NULL || !s->best.is_known) return false;
+    memcpy(values, s->best.values, s->count * sizeof *values);
+    return true;
+}
+
+/* A decided search needs nothing of the boxes that wait. */
+static double share_of(const imp_survey *s)
+{
+    const bool is_all =
+        s->reason == IMP_REASON_NONE && (s->is_distance || s->verdict == IMP_VERDICT_CLEAR);
+    return is_all || s->pair_count == 0 ? 1 : s->proved / (double)s->pair_count;
+}
+
+imp_code imp_survey_get_state(const imp_survey *s, imp_survey_state *state, imp_error *error)
+{
+    if (s == NULL) return error_set_missing(error, "imp_survey_get_state");
+    const imp_code code = sized_check("imp_survey_state", state, sizeof *state, error);
+    if (code != IMP_SUCCESS) return code;
+    const survey_box *first = box_queue_first(&s->queue);
+    imp_survey_state own = {.struct_size = (uint32_t)sizeof own,
+                            .reason = s->reason,
+                            .boxes = s->boxes,
+                            .waiting = s->queue.count,
+                            .proved = share_of(s),
+                            .t_upper = s->best.t,
+                            .pairs_of_bodies = s->pair_count,
+                            .has_worst = first != NULL};
+    if (first != NULL) {
+        memcpy(own.worst_body, s->pairs[first->pair].body, sizeof own.worst_body);
+        own.worst_time[0] = s->is_distance ? s->options.t_start : first->key;
+        own.worst_time[1] = s->options.t_end;
+    }
+    sized_write(state, &own);
+    return IMP_SUCCESS;
+}
+
+bool imp_survey_worst(const imp_survey *s, double *lo, double *hi)
+{
+    const survey_box *first = s != NULL ? box_queue_first(&s->queue) : NULL;
+    if (first == NULL || lo == NULL || hi == NULL) return false;
+    for (size_t k = 0; k < s->count; ++k) {
+        lo[k] = first->range[2 * k];
+        hi[k] = first->range[2 * k + 1];
+    }
+    return true;
+}

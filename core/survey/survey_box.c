@@ -1,0 +1,470 @@
+/* SPDX-FileCopyrightText: The Impinge authors
+ * SPDX-License-Identifier: Apache-2.0 */
+#include <config.h>
+
+#include <stdlib.h>
+#include <string.h>
+
+#include "core/base/rounding.h"
+#include "core/base/status.h"
+#include "core/common/clock.h"
+#include "core/scene/posed_scene.h"
+#include "core/survey/survey_internal.h"
+
+/* --- What the values of a box do -------------------------------------------------------------- */
+
+typedef struct box_view {
+    double *lo, *hi; /* s->ranges of the box, apart */
+    double total;    /* shift of all parameters and both bodies together; length */
+    double apart;    /* the boxes that hold the bodies are so far apart, at least; length */
+} box_view;
+
+static bool is_rest(const survey_pair *pair) { return pair->body[0] == SURVEY_ALL_BODIES; }
+
+static void join_image(surface_image *all, const surface_image *one)
+{
+    for (int i = 0; i < 3; ++i) {
+        if (!(one->lo[i] >= all->lo[i])) all->lo[i] = one->lo[i];
+        if (!(one->hi[i] <= all->hi[i])) all->hi[i] = one->hi[i];
+    }
+}
+
+/* A lower bound of the distance of points of two boxes: that along the axis where they are farthest
+ * apart. */
+static double apart_lower(const surface_image *a, const surface_image *b)
+{
+    double most = 0;
+    for (int i = 0; i < 3; ++i) {
+        const double above = difference_lower(b->lo[i], a->hi[i]);
+        const double below = difference_lower(a->lo[i], b->hi[i]);
+        if (above > most) most = above;
+        if (below > most) most = below;
+    }
+    return most;
+}
+
+/* Adds what parameters shift one body of the pair by, at most: of its surfaces the one that moves
+ * most. s->shift[2] is scratch. */
+static imp_code measure_body(imp_survey *s, const survey_pair *pair, int side,
+                             const value_box *values, surface_image *all, imp_error *error)
+{
+    const size_t body = pair->body[side];
+    double *most = s->shift[side], *one = s->shift[2];
+    for (size_t j = 0; j < s->count; ++j) most[j] = 0;
+    for (int i = 0; i < 3; ++i) all->lo[i] = INFINITY, all->hi[i] = -INFINITY;
+    for (size_t k = 0; k < scene_surface_count(s->scene, body); ++k) {
+        const surface *of = scene_surface(s->scene, body, k);
+        surface_image image;
+        const imp_status status = surface_shift_upper(of, &s->extents[s->first[body] + k],
+                                                      pair->left_out, values, one, &image);
+        if (status != IMP_STATUS_OK) {
+            surface_fault(of, error, ": %s", surface_status_told(of, status).text);
+            return surface_set_code(status, error);
+        }
+        join_image(all, &image);
+        for (size_t j = 0; j < s->count; ++j)
+            if (!(one[j] <= most[j])) most[j] = one[j];
+    }
+    return IMP_SUCCESS;
+}
+
+/* Measures a box over a part of time. s->at becomes its middle, s->shift[0][k] what parameter k
+ * shifts both bodies by. A sum of two numbers, and of at most SCENE_PARAMETERS_MAX. */
+PAD_COVERS(64, 1 + SCENE_PARAMETERS_MAX);
+static imp_code measure(imp_survey *s, const survey_box *box, double t_start, double t_end,
+                        box_view *view, imp_error *error)
+{
+    const survey_pair *pair = &s->pairs[box->pair];
+    double *lo = s->at + s->count, *hi = lo + s->count; /* behind the middle */
+    surface_image image[2];
+    for (size_t j = 0; j < s->count; ++j) {
+        lo[j] = box->range[2 * j], hi[j] = box->range[2 * j + 1];
+        s->at[j] = scene_parameter_middle(lo[j], hi[j]);
+        s->shift[0][j] = 0;
+    }
+    *view = (box_view){.lo = lo, .hi = hi};
+    if (is_rest(pair)) return IMP_SUCCESS;
+    const value_box values = {s->count, lo, hi, s->at, t_start, t_end};
+    for (int side = 0; side < 2; ++side) {
+        const imp_code code = measure_body(s, pair, side, &values, &image[side], error);
+        if (code != IMP_SUCCESS) return code;
+    }
+    for (size_t j = 0; j < s->count; ++j) {
+        s->shift[0][j] += s->shift[1][j];
+        view->total += s->shift[0][j];
+    }
+    view->total = padded_upper(view->total, 64);
+    view->apart = apart_lower(&image[0], &image[1]);
+    return IMP_SUCCESS;
+}
+
+/* --- Scenes and queries at the middle --------------------------------------------------------- */
+
+/* The pairs that parameters move are searched on their own. */
+static imp_code ignore_moved(const imp_survey *s, imp_scene *scene)
+{
+    imp_code code = scene_copy_relations(s->scene, scene);
+    for (size_t k = 0; k < s->pair_count && code == IMP_SUCCESS; ++k) {
+        const size_t *body = s->pairs[k].body;
+        if (!is_rest(&s->pairs[k]))
+            code = scene_ignore_members(scene, (scene_members){false, body[0]},
+                                        (scene_members){false, body[1]});
+    }
+    return code;
+}
+
+static imp_code scene_of_box(imp_survey *s, const survey_box *box, imp_scene **made,
+                             imp_error *error)
+{
+    const survey_pair *pair = &s->pairs[box->pair];
+    const size_t count = scene_body_count(s->scene);
+    size_t *all = NULL;
+    imp_code code;
+    if (!is_rest(pair)) {
+        code = posed_scene_of_bodies(s->scene, s->at, pair->body, 2, made);
+        return code == IMP_SUCCESS ? code : error_set_memory(error);
+    }
+    all = malloc((count + 1) * sizeof *all);
+    if (all == NULL) return error_set_memory(error);
+    for (size_t b = 0; b < count; ++b) all[b] = b;
+    code = posed_scene_of_bodies(s->scene, s->at, all, count, made);
+    free(all);
+    if (code == IMP_SUCCESS && ignore_moved(s, *made) != IMP_SUCCESS) {
+        imp_scene_free(*made);
+        code = IMP_ERROR_MEMORY;
+    }
+    return code == IMP_SUCCESS ? code : error_set_memory(error);
+}
+
+double survey_seconds(const imp_survey *s)
+{
+    return s->step_from[0] + (clock_seconds() - s->step_from[1]);
+}
+
+#define PROGRESS_EVERY 0.1 /* seconds between reports */
+
+/* Adds the survey's own to what a query reports. */
+static bool report(void *context, const imp_progress *of_query)
+{
+    imp_survey *s = context;
+    const survey_box *first = box_queue_first(&s->queue);
+    imp_progress all = *of_query;
+    if (atomic_load(&s->cancelled)) return false;
+    all.pairs += s->stats.pairs;
+    all.heap += s->queue.count;
+    all.seconds = survey_seconds(s);
+    if (s->is_distance) {
+        all.lower = first != NULL && first->key < s->settled ? first->key : s->settled;
+        all.upper = s->best.distance;
+    } else if (first != NULL && first->key < all.t_lower) {
+        all.t_lower = first->key;
+    }
+    if (s->options.progress == NULL || all.seconds < s->next_report) return true;
+    s->next_report = all.seconds + PROGRESS_EVERY;
+    return s->options.progress(s->options.progress_context, &all);
+}
+
+static imp_options options_of_query(imp_survey *s, double t_start, double t_end)
+{
+    imp_options options = s->options;
+    options.t_start = t_start;
+    options.t_end = t_end;
+    options.progress = report;
+    options.progress_context = s;
+    if (options.max_pairs > 0) options.max_pairs -= s->stats.pairs;
+    if (options.max_seconds > 0) {
+        options.max_seconds -= survey_seconds(s);
+        if (!(options.max_seconds > 0)) options.max_seconds = 0x1p-1000;
+    }
+    return options;
+}
+
+static void add_stats(imp_survey *s, const imp_stats *of_query)
+{
+    const uint64_t own = s->queue.count * (sizeof(survey_box) + 2 * s->count * sizeof(double));
+    s->stats.pairs += of_query->pairs;
+    s->stats.nodes += of_query->nodes;
+    s->stats.witness_searches += of_query->witness_searches;
+    if (of_query->peak_heap > s->stats.peak_heap) s->stats.peak_heap = of_query->peak_heap;
+    if (of_query->bytes + own > s->stats.bytes) s->stats.bytes = of_query->bytes + own;
+}
+
+static bool is_limit(imp_reason reason)
+{
+    return reason == IMP_REASON_PAIRS || reason == IMP_REASON_SECONDS ||
+           reason == IMP_REASON_MEMORY || reason == IMP_REASON_CANCELLED;
+}
+
+/* Notes why the survey ends, where a query met a limit. */
+static bool must_end(imp_survey *s, imp_reason reason)
+{
+    if (!is_limit(reason)) return false;
+    atomic_store(&s->cancelled, false);
+    s->reason = reason;
+    return true;
+}
+
+static imp_code run_contact(imp_survey *s, imp_scene *scene, double t_start, double t_end,
+                            const double gamma[2], imp_result *result, imp_error *error)
+{
+    imp_options options = options_of_query(s, t_start, t_end);
+    options.gamma = gamma[0];
+    options.gamma_clear = gamma[1];
+    *result = (imp_result){.struct_size = (uint32_t)sizeof *result};
+    imp_query *query = imp_query_new(scene, &options, error);
+    if (query == NULL) return error != NULL ? error->code : IMP_ERROR_USAGE;
+    imp_code code = imp_query_step(query, 0, error);
+    if (code == IMP_SUCCESS) code = imp_query_get_result(query, result, error);
+    if (code == IMP_SUCCESS) add_stats(s, &result->stats);
+    imp_query_free(query);
+    return code;
+}
+
+static imp_code run_distance(imp_survey *s, imp_scene *scene, double within, double tolerance,
+                             imp_clearance *answer, imp_error *error)
+{
+    const imp_options options = options_of_query(s, s->options.t_start, s->options.t_end);
+    imp_clearance_options asked = imp_clearance_options_default();
+    asked.within = within;
+    asked.tolerance = tolerance;
+    *answer = (imp_clearance){.struct_size = (uint32_t)sizeof *answer};
+    imp_query *query = imp_clearance_new(scene, &options, &asked, error);
+    if (query == NULL) return error != NULL ? error->code : IMP_ERROR_USAGE;
+    imp_code code = imp_query_step(query, 0, error);
+    if (code == IMP_SUCCESS) code = imp_clearance_get(query, 0, answer, error);
+    if (code == IMP_SUCCESS) add_stats(s, &answer->stats);
+    imp_query_free(query);
+    return code;
+}
+
+/* --- What becomes of a box -------------------------------------------------------------------- */
+
+void survey_tell(const imp_survey *s, const survey_box *box, double t_start, double t_end,
+                 imp_verdict verdict, double lower)
+{
+    if (s->how.sink == NULL) return;
+    double *lo = s->at + 3 * s->count, *hi = lo + s->count;
+    const survey_pair *pair = &s->pairs[box->pair];
+    for (size_t j = 0; j < s->count; ++j) lo[j] = box->range[2 * j], hi[j] = box->range[2 * j + 1];
+    const imp_survey_box told = {.struct_size = (uint32_t)sizeof told,
+                                 .verdict = verdict,
+                                 .body = {pair->body[0], pair->body[1]},
+                                 .count = s->count,
+                                 .lo = lo,
+                                 .hi = hi,
+                                 .t_start = t_start,
+                                 .t_end = t_end,
+                                 .lower = lower};
+    s->how.sink(s->how.sink_context, &told);
+}
+
+/* Notes that nothing comes near in the box up to a time. */
+static void prove_until(imp_survey *s, survey_box *box, double t, bool is_clear)
+{
+    const double all = s->options.t_end - s->options.t_start;
+    if (!(t > box->key) && !is_clear) return;
+    s->proved += all > 0 ? box->share * ((t - box->key) / all) : box->share;
+    survey_tell(s, box, box->key, t, IMP_VERDICT_CLEAR, s->gamma_clear);
+    box->key = t;
+}
+
+/* Chooses the parameter that shifts most; where several have no bound, the one whose range is
+ * widest beside that of the scene. Returns s->count if no range can be halved. */
+static size_t choose_split(const imp_survey *s, const box_view *view)
+{
+    size_t best = s->count;
+    double most = 0, widest = 0;
+    for (size_t j = 0; j < s->count; ++j) {
+        const double wide = (view->hi[j] - view->lo[j]) / (s->hi[j] - s->lo[j]);
+        const double shift = s->shift[0][j] >= 0 ? s->shift[0][j] : INFINITY;
+        if (!(view->lo[j] < s->at[j] && s->at[j] < view->hi[j]) || shift == 0) continue;
+        if (best < s->count && !(shift > most || (shift == most && wide > widest))) continue;
+        best = j;
+        most = shift;
+        widest = wide;
+    }
+    return best;
+}
+
+/* Queues the halves of the box, which share the middle. *done false: it cannot be halved. */
+static imp_code split(imp_survey *s, const survey_box *box, const box_view *view, bool *done,
+                      imp_error *error)
+{
+    const size_t j = choose_split(s, view), size = sizeof *box + 2 * s->count * sizeof *box->range;
+    *done = j < s->count;
+    for (int side = 0; *done && side < 2; ++side) {
+        survey_box *half = malloc(size);
+        if (half == NULL) return error_set_memory(error);
+        memcpy(half, box, size);
+        half->number = s->made++;
+        half->share = 0.5 * box->share;
+        half->range[2 * j + (side == 0)] = s->at[j];
+        if (!box_queue_push(&s->queue, half)) return error_set_memory(error);
+    }
+    return IMP_SUCCESS;
+}
+
+/* What is left of a box that was asked about. */
+typedef enum box_rest {
+    BOX_OPEN,   /* to be halved */
+    BOX_DONE,   /* nothing, or nothing that could change the answer */
+    BOX_WAITING /* all of it: a limit came, or double precision resolves no more */
+} box_rest;
+
+/* --- The earliest contact --------------------------------------------------------------------- */
+
+static void in_scene(const survey_pair *pair, imp_side *a, imp_side *b)
+{
+    if (is_rest(pair)) return;
+    a->body = pair->body[a->body];
+    b->body = pair->body[b->body];
+}
+
+static void note_contact(imp_survey *s, const survey_box *box, const imp_result *found)
+{
+    if (!(found->t < s->best.t)) return;
+    s->best.is_known = true;
+    s->best.t = found->t;
+    s->best.contact = *found;
+    in_scene(&s->pairs[box->pair], &s->best.contact.a, &s->best.contact.b);
+    memcpy(s->best.values, s->at, s->count * sizeof *s->at);
+    if (s->how.any) s->reason = IMP_REASON_NONE;
+}
+
+/* Asks the query with room for the shift, then, where a contact is too coarse to be one of the
+ * scene, the query without: its contact bounds the earliest from above. */
+static imp_code ask_queries(imp_survey *s, survey_box *box, imp_scene *scene, double total,
+                            double t_end, box_rest *rest, imp_error *error)
+{
+    const double between = s->gamma - s->gamma_clear, own[2] = {s->gamma, s->gamma_clear};
+    const bool is_fine = total <= 0.5 * between;
+    const double clear = total > 0 ? sum_upper(s->gamma_clear, total) : s->gamma_clear;
+    const double coarse[2] = {is_fine ? s->gamma : clear + 0.25 * (total + between), clear};
+    imp_result found;
+    imp_code code = run_contact(s, scene, box->key, t_end, coarse, &found, error);
+    if (code != IMP_SUCCESS) return code;
+    prove_until(s, box, found.t_lower, found.verdict == IMP_VERDICT_CLEAR);
+    if (found.verdict == IMP_VERDICT_CLEAR) return *rest = BOX_DONE, IMP_SUCCESS;
+    if (found.verdict == IMP_VERDICT_UNDECIDED) {
+        const bool is_stuck = is_fine && found.reason == IMP_REASON_RESOLUTION;
+        if (is_stuck) s->reason = IMP_REASON_RESOLUTION;
+        if (is_stuck || must_end(s, found.reason)) return *rest = BOX_WAITING, IMP_SUCCESS;
+    }
+    if (!is_fine) code = run_contact(s, scene, box->key, t_end, own, &found, error);
+    if (code != IMP_SUCCESS) return code;
+    if (found.verdict == IMP_VERDICT_CONTACT) note_contact(s, box, &found);
+    if (found.verdict == IMP_VERDICT_UNDECIDED && must_end(s, found.reason)) *rest = BOX_WAITING;
+    return IMP_SUCCESS;
+}
+
+static imp_code ask_contact(imp_survey *s, survey_box *box, box_rest *rest, imp_error *error)
+{
+    const double t_end = s->best.t < s->options.t_end ? s->best.t : s->options.t_end;
+    box_view view;
+    imp_scene *scene;
+    bool is_split;
+    imp_code code = measure(s, box, box->key, t_end, &view, error);
+    if (code != IMP_SUCCESS) return code;
+    if (view.apart > s->gamma_clear) {
+        prove_until(s, box, t_end, true);
+        return *rest = BOX_DONE, IMP_SUCCESS;
+    }
+    if (view.total < INFINITY) {
+        code = scene_of_box(s, box, &scene, error);
+        if (code != IMP_SUCCESS) return code;
+        code = ask_queries(s, box, scene, view.total, t_end, rest, error);
+        imp_scene_free(scene);
+        if (code != IMP_SUCCESS || *rest != BOX_OPEN) return code;
+    }
+    if (s->best.t <= box->key) {
+        survey_tell(s, box, box->key, s->options.t_end, IMP_VERDICT_CONTACT, 0);
+        return *rest = BOX_DONE, IMP_SUCCESS;
+    }
+    code = split(s, box, &view, &is_split, error);
+    *rest = is_split ? BOX_DONE : BOX_WAITING;
+    if (!is_split) s->reason = IMP_REASON_RESOLUTION;
+    return code;
+}
+
+/* --- The least distance ----------------------------------------------------------------------- */
+
+double survey_distance_enough(const imp_survey *s)
+{
+    const double upper = s->best.distance, required = s->asked.required;
+    if (!(upper < INFINITY)) return INFINITY;
+    const double narrow = padded_lower(upper * (1 - s->asked.tolerance), 4);
+    const double kept = required * (1 - 1e-6);
+    return upper > required && kept > narrow && kept <= upper ? kept : narrow;
+}
+
+static void note_nearest(imp_survey *s, const survey_box *box, const imp_clearance *found)
+{
+    if (!found->has_witness || !(found->upper < s->best.distance)) return;
+    s->best.is_known = true;
+    s->best.distance = found->upper;
+    s->best.nearest = *found;
+    in_scene(&s->pairs[box->pair], &s->best.nearest.a, &s->best.nearest.b);
+    memcpy(s->best.values, s->at, s->count * sizeof *s->at);
+}
+
+/* Closes a box, whose distance is enough or cannot be known better. */
+static void settle(imp_survey *s, const survey_box *box)
+{
+    if (box->key < s->settled) s->settled = box->key;
+    s->proved += box->share;
+    survey_tell(s, box, s->options.t_start, s->options.t_end, IMP_VERDICT_CLEAR, box->key);
+}
+
+/* Returns how narrow the bracket at the middle is to be: the shift blurs it anyhow. */
+static double tolerance_of(const imp_survey *s, double total)
+{
+    const double own = 0.5 * s->asked.tolerance, least = own > 1e-9 ? own : 1e-9, most = 0.25;
+    if (!(total > 0)) return least;
+    const double wanted =
+        s->best.distance < INFINITY ? 0.25 * total / (s->best.distance + total) : most;
+    return wanted > least ? wanted : least;
+}
+
+static imp_code measure_distance(imp_survey *s, survey_box *box, double total, box_rest *rest,
+                                 imp_error *error)
+{
+    const double enough = survey_distance_enough(s);
+    const double within = enough < INFINITY ? sum_upper(enough, total) : 0;
+    imp_scene *scene;
+    imp_clearance found;
+    imp_code code = scene_of_box(s, box, &scene, error);
+    if (code != IMP_SUCCESS) return code;
+    code = run_distance(s, scene, within, tolerance_of(s, total), &found, error);
+    imp_scene_free(scene);
+    if (code != IMP_SUCCESS) return code;
+    const double lower = total > 0 ? difference_lower(found.lower, total) : found.lower;
+    if (lower > box->key) box->key = lower;
+    note_nearest(s, box, &found);
+    if (must_end(s, found.reason)) *rest = BOX_WAITING;
+    return IMP_SUCCESS;
+}
+
+static imp_code ask_distance(imp_survey *s, survey_box *box, box_rest *rest, imp_error *error)
+{
+    box_view view;
+    bool is_split = false;
+    imp_code code = measure(s, box, s->options.t_start, s->options.t_end, &view, error);
+    if (code != IMP_SUCCESS) return code;
+    if (view.apart > box->key) box->key = view.apart;
+    if (view.total < INFINITY && !(box->key >= survey_distance_enough(s)))
+        code = measure_distance(s, box, view.total, rest, error);
+    if (code != IMP_SUCCESS || *rest != BOX_OPEN) return code;
+    if (!(box->key >= survey_distance_enough(s))) code = split(s, box, &view, &is_split, error);
+    if (code == IMP_SUCCESS && !is_split) settle(s, box);
+    return code;
+}
+
+imp_code survey_ask(imp_survey *s, survey_box *box, imp_error *error)
+{
+    box_rest rest = BOX_OPEN;
+    s->boxes += 1;
+    const imp_code code =
+        s->is_distance ? ask_distance(s, box, &rest, error) : ask_contact(s, box, &rest, error);
+    if (code != IMP_SUCCESS || rest != BOX_WAITING) return free(box), code;
+    return box_queue_push(&s->queue, box) ? IMP_SUCCESS : error_set_memory(error);
+}

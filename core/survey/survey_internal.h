@@ -1,0 +1,103 @@
+/* SPDX-FileCopyrightText: The Impinge authors
+ * SPDX-License-Identifier: Apache-2.0 */
+#ifndef CORE_SURVEY_SURVEY_INTERNAL_H
+#define CORE_SURVEY_SURVEY_INTERNAL_H
+
+#include <math.h>
+#include <stdatomic.h>
+
+#include "core/scene/scene.h"
+#include "core/surface/surface_shift.h"
+#include "core/survey/box_queue.h"
+
+/* Surveys: branch and bound over the values of a scene's parameters
+ * =================================================================
+ * A box of values is decided by an ordinary query at its middle:
+ *
+ * Lemma. Let c be the middle of a box of values, and shift >= the sum of how far the points of two
+ * bodies move when the parameters go from c to any p of the box, at any time in question
+ * (surface_shift_upper; motions that both bodies share leave their distances as they are). Points
+ * that are farther apart than d + shift at c are farther apart than d at p, by the triangle
+ * inequality. So where the query at c, with gamma_clear + shift for its gamma_clear, proves that
+ * nothing is near before t', nothing comes nearer than gamma_clear before t' at any p; and a least
+ * distance at c, less the shift, bounds that at p.
+ *
+ * Nobody is inside a solid body at p who is not at c: on the way from c to p, which stays in the
+ * box, no surfaces meet.
+ *
+ * A box that is not decided is halved along the parameter that shifts most. The one with the least
+ * key is next, which is what makes the first answer the earliest, or the least. The search ends:
+ * shifts go to 0 with the boxes, and where the shift is at most half of gamma - gamma_clear a
+ * contact of the query at c is one of the scene.
+ *
+ * survey.c steps, survey_box.c decides one box, survey_pairs.c finds which bodies which parameters
+ * move, survey_answer.c reads. */
+
+#define SURVEY_ALL_BODIES SIZE_MAX
+
+/* Two bodies that parameters move relative to each other, or all pairs of bodies that none does:
+ * body[0] is SURVEY_ALL_BODIES. */
+typedef struct survey_pair {
+    size_t body[2];
+    size_t left_out; /* last maps that both share */
+} survey_pair;
+
+/* The contact, or the nearest points, known. */
+typedef struct survey_incumbent {
+    bool is_known;
+    double t;        /* INFINITY: none */
+    double distance; /* INFINITY: none */
+    double *values;
+    imp_result contact;
+    imp_clearance nearest;
+} survey_incumbent;
+
+struct imp_survey {
+    imp_scene *scene;
+    imp_options options;
+    imp_survey_options how;
+    bool is_clearance; /* asked with clearance options, */
+    bool is_distance;  /* for a bracket; else for the earliest contact, or any */
+    imp_clearance_options asked;
+    double gamma, gamma_clear; /* of the search for a contact */
+    size_t count;              /* of parameters */
+    double *lo, *hi;       /* their ranges, one block with the incumbent's values and the view */
+    double *at, *shift[3]; /* of the box being asked about: its middle; shifts of both bodies and
+                                  of one of their surfaces */
+    size_t *first;         /* of each body, its first extent */
+    surface_extent *extents;
+    survey_pair *pairs;
+    size_t pair_count, pair_capacity;
+    box_queue queue;
+    uint64_t made, boxes;
+    survey_incumbent best;
+    double settled; /* least distance proved of boxes that are done with; length */
+    double proved;  /* shares of all pairs together */
+    imp_stats stats;
+    imp_verdict verdict;
+    imp_reason reason;
+    bool failed;
+    double next_report, step_from[2]; /* seconds, as in a query */
+    atomic_bool cancelled;
+};
+
+/* Finds the pairs, and how large surfaces are before their maps. */
+imp_code survey_find_pairs(imp_survey *s, imp_error *error);
+
+/* Adds the first box of each pair. */
+imp_code survey_add_roots(imp_survey *s, imp_error *error);
+
+/* Decides a box, which it takes over, or divides it; s->reason becomes other than RUNNING where
+ * that ends the survey. */
+imp_code survey_ask(imp_survey *s, survey_box *box, imp_error *error);
+
+/* Tells the sink about a box over a part of time. */
+void survey_tell(const imp_survey *s, const survey_box *box, double t_start, double t_end,
+                 imp_verdict verdict, double lower);
+
+/* Returns the distance from which on a box needs no further search. */
+double survey_distance_enough(const imp_survey *s);
+
+double survey_seconds(const imp_survey *s);
+
+#endif

@@ -1,0 +1,133 @@
+/* SPDX-FileCopyrightText: The Impinge authors
+ * SPDX-License-Identifier: Apache-2.0 */
+#include <config.h>
+
+#include <stdlib.h>
+#include <string.h>
+
+#include "core/base/status.h"
+#include "core/common/array.h"
+#include "core/survey/survey_internal.h"
+
+/* --- Which parameters move two bodies --------------------------------------------------------- */
+
+static bool follows(const surface *s, size_t left_out)
+{
+    for (size_t k = 0; k <= surface_map_count(s) - left_out; ++k)
+        if (surface_origin(s, k)->inner != NULL) return true;
+    return false;
+}
+
+static bool body_follows(const imp_scene *scene, size_t body, size_t left_out)
+{
+    for (size_t k = 0; k < scene_surface_count(scene, body); ++k)
+        if (follows(scene_surface(scene, body, k), left_out)) return true;
+    return false;
+}
+
+/* Counts the last rigid maps that all surfaces of the two bodies have in common. It is enough to
+ * compare each with the first of the other body: what two lists end with that a third ends with,
+ * they have in common. */
+static size_t common_motion(const imp_scene *scene, const size_t body[2])
+{
+    size_t least = SIZE_MAX;
+    for (int side = 0; side < 2; ++side) {
+        const surface *other = scene_surface(scene, body[1 - side], 0);
+        for (size_t k = 0; k < scene_surface_count(scene, body[side]); ++k) {
+            const size_t n = surface_common_motion(scene_surface(scene, body[side], k), other);
+            if (n < least) least = n;
+        }
+    }
+    return least;
+}
+
+static imp_code add_pair(imp_survey *s, survey_pair pair, imp_error *error)
+{
+    survey_pair *grown = array_reserve(s->pairs, s->pair_count, &s->pair_capacity, sizeof *grown);
+    if (grown == NULL) return error_set_memory(error);
+    s->pairs = grown;
+    s->pairs[s->pair_count++] = pair;
+    return IMP_SUCCESS;
+}
+
+static bool is_asked(const imp_survey *s, size_t a, size_t b)
+{
+    const size_t *body = s->how.body;
+    if (body[0] == SIZE_MAX && body[1] == SIZE_MAX) return !imp_scene_ignores(s->scene, a, b);
+    return (body[0] == a && body[1] == b) || (body[0] == b && body[1] == a);
+}
+
+static imp_code collect_pairs(imp_survey *s, imp_error *error)
+{
+    const size_t bodies = scene_body_count(s->scene);
+    bool any_rests = false;
+    imp_code code = IMP_SUCCESS;
+    for (size_t a = 0; a < bodies; ++a)
+        for (size_t b = a + 1; b < bodies && code == IMP_SUCCESS; ++b) {
+            survey_pair pair = {.body = {a, b}};
+            if (scene_surface_count(s->scene, a) == 0 || scene_surface_count(s->scene, b) == 0)
+                continue;
+            if (!is_asked(s, a, b)) continue;
+            pair.left_out = common_motion(s->scene, pair.body);
+            if (body_follows(s->scene, a, pair.left_out) ||
+                body_follows(s->scene, b, pair.left_out) || s->how.body[0] != SIZE_MAX)
+                code = add_pair(s, pair, error);
+            else
+                any_rests = true;
+        }
+    if (code == IMP_SUCCESS && (any_rests || s->pair_count == 0)) {
+        const survey_pair rest = {.body = {SURVEY_ALL_BODIES, SURVEY_ALL_BODIES}};
+        code = add_pair(s, rest, error);
+    }
+    return code;
+}
+
+/* --- How large surfaces are ------------------------------------------------------------------- */
+
+static imp_code find_extents(imp_survey *s, imp_error *error)
+{
+    const size_t bodies = scene_body_count(s->scene);
+    size_t count = 0;
+    s->first = malloc((bodies + 1) * sizeof *s->first);
+    if (s->first == NULL) return error_set_memory(error);
+    for (size_t b = 0; b < bodies; ++b) {
+        s->first[b] = count;
+        count += scene_surface_count(s->scene, b);
+    }
+    s->extents = malloc((count + 1) * sizeof *s->extents);
+    if (s->extents == NULL) return error_set_memory(error);
+    const value_box whole = {s->count, s->lo, s->hi, s->lo, s->options.t_start, s->options.t_end};
+    for (size_t b = 0; b < bodies; ++b)
+        for (size_t k = 0; k < scene_surface_count(s->scene, b); ++k) {
+            const surface *of = scene_surface(s->scene, b, k);
+            const imp_status status = surface_extent_find(of, &whole, &s->extents[s->first[b] + k]);
+            if (status == IMP_STATUS_OK) continue;
+            surface_fault(of, error, ": %s", surface_status_told(of, status).text);
+            return surface_set_code(status, error);
+        }
+    return IMP_SUCCESS;
+}
+
+imp_code survey_find_pairs(imp_survey *s, imp_error *error)
+{
+    const imp_code code = collect_pairs(s, error);
+    return code == IMP_SUCCESS ? find_extents(s, error) : code;
+}
+
+imp_code survey_add_roots(imp_survey *s, imp_error *error)
+{
+    for (size_t k = 0; k < s->pair_count; ++k) {
+        survey_box *box = malloc(sizeof *box + 2 * s->count * sizeof *box->range);
+        if (box == NULL) return error_set_memory(error);
+        box->key = s->is_distance ? 0 : s->options.t_start;
+        box->number = s->made++;
+        box->pair = k;
+        box->share = 1;
+        for (size_t j = 0; j < s->count; ++j) {
+            box->range[2 * j] = s->lo[j];
+            box->range[2 * j + 1] = s->hi[j];
+        }
+        if (!box_queue_push(&s->queue, box)) return error_set_memory(error);
+    }
+    return IMP_SUCCESS;
+}

@@ -1,0 +1,427 @@
+/* SPDX-FileCopyrightText: The Impinge authors
+ * SPDX-License-Identifier: Apache-2.0 */
+#include <config.h>
+
+#include <math.h>
+
+#include "tests/support/query_helpers.h"
+#include "tests/support/suite.h"
+
+/* Scenes with parameters: what is said of all values holds at each. */
+
+static imp_registry *registry;
+
+static void open_registry(void) { registry = query_registry(); }
+static void close_registry(void) { imp_registry_free(registry); }
+
+/* Single quotes stand for double ones. */
+static imp_scene *try_scene(const char *quoted, imp_error *error)
+{
+    const size_t length = strlen(quoted);
+    char *text = malloc(length + 1);
+    ck_assert_ptr_nonnull(text);
+    for (size_t k = 0; k <= length; ++k) text[k] = quoted[k] == '\'' ? '"' : quoted[k];
+    imp_scene *scene = imp_scene_from_json(registry, text, length, "s.json", error);
+    free(text);
+    return scene;
+}
+
+static imp_scene *scene_of(const char *quoted)
+{
+    imp_error error;
+    imp_scene *scene = try_scene(quoted, &error);
+    ck_assert_msg(scene != NULL, "%s", error.text);
+    return scene;
+}
+
+typedef struct answer {
+    imp_result contact;
+    imp_clearance near;
+    imp_survey_state state;
+    double values[8], left[16];
+    bool has_values;
+} answer;
+
+/* `asked` NULL: the earliest contact. */
+static answer survey(imp_scene *scene, double gamma, const imp_clearance_options *asked,
+                     const imp_survey_options *how)
+{
+    imp_error error;
+    answer found = {.contact = {.struct_size = sizeof found.contact},
+                    .near = {.struct_size = sizeof found.near},
+                    .state = {.struct_size = sizeof found.state}};
+    imp_options options = imp_options_default(scene);
+    options.gamma = gamma;
+    options.max_pairs = 2000000;
+    imp_survey *s = imp_survey_new(scene, &options, asked, how, &error);
+    ck_assert_msg(s != NULL, "%s", error.text);
+    ck_assert_msg(imp_survey_step(s, 0, &error) == IMP_SUCCESS, "%s", error.text);
+    const imp_code code = asked == NULL ? imp_survey_get_result(s, &found.contact, &error)
+                                        : imp_survey_get_clearance(s, &found.near, &error);
+    ck_assert_msg(code == IMP_SUCCESS, "%s", error.text);
+    ck_assert_int_eq(imp_survey_get_state(s, &found.state, &error), IMP_SUCCESS);
+    found.has_values = imp_survey_values(s, found.values);
+    imp_survey_free(s);
+    return found;
+}
+
+/* --- Closed forms ----------------------------------------------------------------------------- */
+
+/* A ball on an arm of length 1 that turns by a, one on an arm of length 1 that turns by b about a
+ * point 2.7 away: their centres are nearest at a = b = 0, and 0.7 apart. */
+#define ARMS(RANGE_A, RANGE_B)                                                                     \
+    "{'parameters':{'a':" RANGE_A ",'b':" RANGE_B "},'bodies':["                                   \
+    "{'name':'one','surfaces':[{'type':'sphere','radius':0.3,'center':[1,0,0]}],"                  \
+    "'maps':[{'type':'rotate','axis':[0,0,1],'rate':1,'clock':'a'}]},"                             \
+    "{'name':'two','surfaces':[{'type':'sphere','radius':0.3,'center':[-1,0,0]}],"                 \
+    "'maps':[{'type':'rotate','axis':[0,0,1],'rate':1,'clock':'b'},"                               \
+    "{'type':'translate','offset':[[2.7,0,0]]}]}]}"
+
+static double arms_apart(double a, double b)
+{
+    return hypot(2.7 - cos(b) - cos(a), -sin(b) - sin(a)) - 0.6;
+}
+
+START_TEST(balls_on_two_arms_are_as_near_as_the_law_of_cosines_says)
+{
+    imp_scene *scene = scene_of(ARMS("[-1,1]", "[-1,1]"));
+    imp_clearance_options asked = imp_clearance_options_default();
+    asked.tolerance = 0.1;
+    const answer found = survey(scene, 1e-3, &asked, NULL);
+    ck_assert_int_eq(found.near.reason, IMP_REASON_NONE);
+    ck_assert_double_le(found.near.lower, 0.1);
+    ck_assert_double_ge(found.near.lower, 0.09 - 1e-9);
+    ck_assert_double_ge(found.near.upper, 0.1);
+    ck_assert_double_ge(found.near.upper + 1e-9, arms_apart(found.values[0], found.values[1]));
+    ck_assert_double_eq_tol(found.state.proved, 1, 1e-9);
+    imp_scene_free(scene);
+}
+END_TEST
+
+START_TEST(what_is_required_is_decided_for_all_values)
+{
+    imp_scene *scene = scene_of(ARMS("[-1,1]", "[-1,1]"));
+    imp_clearance_options asked = imp_clearance_options_default();
+    asked.decide = true;
+    asked.required = 0.08;
+    answer found = survey(scene, 1e-3, &asked, NULL);
+    ck_assert_int_eq(found.near.verdict, IMP_REQUIREMENT_HOLDS);
+    asked.required = 0.12;
+    found = survey(scene, 1e-3, &asked, NULL);
+    ck_assert_int_eq(found.near.verdict, IMP_REQUIREMENT_VIOLATED);
+    ck_assert(found.has_values);
+    ck_assert_double_le(arms_apart(found.values[0], found.values[1]), 0.12);
+    imp_scene_free(scene);
+}
+END_TEST
+
+/* A ball falls on a ball on an arm, whose top is highest at an angle of 0. */
+START_TEST(the_earliest_contact_is_that_of_the_worst_values)
+{
+    imp_scene *scene = scene_of(
+        "{'parameters':{'a':[-0.5,1],'b':[-0.1,0.1]},'bodies':["
+        "{'surfaces':[{'type':'sphere','radius':0.25,'center':[0,0,1]}],"
+        "'maps':[{'type':'rotate','axis':[1,0,0],'rate':1,'clock':'a'}]},"
+        "{'surfaces':[{'type':'plane','origin':[-2,-2,2],'edge_u':[4,0,0],'edge_v':[0,4,0]}],"
+        "'maps':[{'type':'translate','velocity':[0,0,1],'clock':'b'},"
+        "{'type':'translate','velocity':[0,0,-1]}]}]}");
+    const answer found = survey(scene, 1e-3, NULL, NULL);
+    ck_assert_int_eq(found.contact.verdict, IMP_VERDICT_CONTACT);
+    ck_assert_double_eq(found.contact.t, found.contact.t_lower);
+    /* the plane is at 2 + b - t, the ball's top at cos a + 0.25 */
+    ck_assert_double_le(found.contact.t, 0.65);
+    ck_assert_double_ge(found.contact.t, 0.65 - 1e-3);
+    ck_assert_double_eq_tol(found.values[0], 0, 0.05);
+    ck_assert_double_eq_tol(found.values[1], -0.1, 0.002);
+    imp_scene_free(scene);
+}
+END_TEST
+
+/* What both hang on moves neither relative to the other. */
+START_TEST(a_common_parent_takes_no_part)
+{
+    imp_scene *scene = scene_of(
+        "{'parameters':{'a':[-3,3]},'bodies':["
+        "{'name':'base','maps':[{'type':'rotate','axis':[1,2,3],'rate':1,'clock':'a'}]},"
+        "{'name':'one','parent':'base','surfaces':[{'type':'sphere','radius':1}]},"
+        "{'name':'two','parent':'base','surfaces':[{'type':'sphere','center':[2.1,0,0]}]}]}");
+    const answer found = survey(scene, 1e-3, NULL, NULL);
+    ck_assert_int_eq(found.contact.verdict, IMP_VERDICT_CLEAR);
+    ck_assert_uint_eq(found.state.boxes, 1);
+    imp_scene_free(scene);
+}
+END_TEST
+
+/* --- Clocks ----------------------------------------------------------------------------------- */
+
+START_TEST(the_clock_time_changes_no_bit)
+{
+    static const char *const clocks[2] = {"", ",'clock':'time'"};
+    imp_result found[2];
+    for (int k = 0; k < 2; ++k) {
+        char text[600];
+        snprintf(text, sizeof text,
+                 "{'bodies':[{'surfaces':[{'type':'torus','major_radius':1,'minor_radius':0.3%s}],"
+                 "'maps':[{'type':'rotate','axis':[1,0,0],'rate':2%s}]},{'surfaces':[{'type':"
+                 "'sphere','radius':0.4,'center':[2,0,0]}],'maps':[{'type':'translate','velocity':"
+                 "[-2,0,0]%s}]}]}",
+                 clocks[k], clocks[k], clocks[k]);
+        imp_scene *scene = scene_of(text);
+        imp_error error;
+        const imp_options options = imp_options_default(scene);
+        found[k] = (imp_result){.struct_size = sizeof found[k]};
+        ck_assert_int_eq(imp_scene_solve(scene, &options, &found[k], &error), IMP_SUCCESS);
+        found[k].stats.seconds = 0;
+        found[k].stats.bytes = 0; /* of labels, too */
+        imp_scene_free(scene);
+    }
+    ck_assert_mem_eq(&found[0], &found[1], sizeof found[0]);
+}
+END_TEST
+
+/* Any type under a clock, of any capabilities, stands where the type stands at that time. */
+START_TEST(a_scene_at_values_stands_where_time_would_put_it)
+{
+    static const char *const of_time =
+        "{'bodies':[{'surfaces':[{'type':'bezier','degree':[1,1],'points':[[0,0,0],[0,1,0],"
+        "[1,0,0],[1,1,0.5]],'velocities':[[0,0,1],[0,0,1],[0,0,1],[0,1,1]]}],'maps':["
+        "{'type':'twist','rate':1},{'type':'rotate','axis':[1,0,1],'rate':2}]}]}";
+    static const char *const of_clock =
+        "{'parameters':{'p':[0,2]},'bodies':[{'surfaces':[{'type':'bezier','clock':'p',"
+        "'degree':[1,1],'points':[[0,0,0],[0,1,0],[1,0,0],[1,1,0.5]],"
+        "'velocities':[[0,0,1],[0,0,1],[0,0,1],[0,1,1]]}],'maps':["
+        "{'type':'twist','rate':1,'clock':'p'},"
+        "{'type':'rotate','axis':[1,0,1],'rate':2,'clock':'p'}]}]}";
+    imp_error error;
+    imp_scene *time = scene_of(of_time), *clock = scene_of(of_clock);
+    const double value = 0.7, p[3] = {0.3, 0.6, value}, q[3] = {0.3, 0.6, -5};
+    imp_scene *at = imp_scene_at(clock, &value, &error);
+    ck_assert_msg(at != NULL, "%s", error.text);
+    double x[3], y[3];
+    ck_assert_int_eq(imp_scene_eval(time, 0, 0, 1, p, x, NULL, NULL), IMP_SUCCESS);
+    ck_assert_int_eq(imp_scene_eval(at, 0, 0, 1, q, y, NULL, NULL), IMP_SUCCESS);
+    ck_assert_mem_eq(x, y, sizeof x);
+    imp_model model[3];
+    const double lo[3] = {0, 0, -1}, hi[3] = {1, 1, 3};
+    ck_assert_int_eq(imp_scene_include(at, 0, 0, lo, hi, model, NULL), IMP_SUCCESS);
+    for (int i = 0; i < 3; ++i) {
+        ck_assert_double_eq(model[i].rate[2], 0);
+        ck_assert_double_le(model[i].lo, x[i]);
+        ck_assert_double_ge(model[i].hi, x[i]);
+    }
+    imp_scene_free(at);
+    imp_scene_free(clock);
+    imp_scene_free(time);
+}
+END_TEST
+
+/* --- Random scenes against samples ------------------------------------------------------------ */
+
+enum { BOXES = 64, PARAMETERS = 3, GRID = 6 };
+
+typedef struct told_box {
+    double lo[PARAMETERS], hi[PARAMETERS], time[2], lower;
+} told_box;
+
+typedef struct told_boxes {
+    told_box at[BOXES];
+    size_t count, seen;
+    uint64_t *random;
+} told_boxes;
+
+/* Keeps some of the boxes, each with the same chance. */
+static void keep_box(void *context, const imp_survey_box *box)
+{
+    told_boxes *all = context;
+    if (box->verdict != IMP_VERDICT_CLEAR) return;
+    const size_t seen = all->seen++;
+    const size_t k =
+        seen < BOXES ? seen : (size_t)(random_fraction(all->random) * (double)(seen + 1));
+    if (k >= BOXES) return;
+    told_box *to = &all->at[k];
+    if (k == all->count) all->count += 1;
+    ck_assert_uint_eq(box->count, PARAMETERS);
+    memcpy(to->lo, box->lo, sizeof to->lo);
+    memcpy(to->hi, box->hi, sizeof to->hi);
+    to->time[0] = box->t_start, to->time[1] = box->t_end;
+    to->lower = box->lower;
+}
+
+static void add_map(uint64_t *r, char *text, size_t size, bool last)
+{
+    static const char *const clocks[] = {"p0", "p1", "p2", "time"};
+    const size_t used = strlen(text);
+    const char *clock = clocks[(int)(3.999 * random_fraction(r))];
+    const double kind = random_fraction(r);
+    if (kind < 0.6)
+        snprintf(text + used, size - used,
+                 "{'type':'rotate','axis':[%g,%g,%g],'rate':%g,'center':[%g,%g,%g],'clock':'%s'}%s",
+                 random_between(r, -1, 1), random_between(r, -1, 1), random_between(r, 0.1, 1),
+                 random_between(r, -1, 1), random_between(r, -1, 1), random_between(r, -1, 1),
+                 random_between(r, -1, 1), clock, last ? "" : ",");
+    else if (kind < 0.8)
+        snprintf(text + used, size - used,
+                 "{'type':'translate','velocity':[%g,%g,%g],'clock':'%s'}%s",
+                 random_between(r, -1, 1), random_between(r, -1, 1), random_between(r, -1, 1),
+                 clock, last ? "" : ",");
+    else
+        snprintf(text + used, size - used, "{'type':'twist','rate':%g,'clock':'%s'}%s",
+                 random_between(r, -0.5, 0.5), clock, last ? "" : ",");
+}
+
+static void add_body(uint64_t *r, char *text, size_t size, double x)
+{
+    static const char *const shapes[] = {"'type':'sphere','radius':0.5",
+                                         "'type':'torus','major_radius':0.5,'minor_radius':0.2",
+                                         "'type':'capsule','radius':0.2,'from':[0,0,-0.5],'to':"
+                                         "[0,0,0.5]",
+                                         "'type':'box','size':[0.5,0.4,0.8]"};
+    snprintf(text + strlen(text), size - strlen(text), "{'surfaces':[{%s}],'maps':[",
+             shapes[(int)(3.999 * random_fraction(r))]);
+    const int maps = 1 + (int)(2.999 * random_fraction(r));
+    for (int k = 0; k < maps; ++k) add_map(r, text, size, false);
+    snprintf(text + strlen(text), size - strlen(text),
+             "{'type':'translate','offset':[[%g,%g,%g]]}]}", x, random_between(r, -0.5, 0.5),
+             random_between(r, -0.5, 0.5));
+}
+
+/* The least distance of points of both bodies at some values and a time, on a grid. */
+static double sampled(const imp_scene *scene, const double *values, double t)
+{
+    imp_error error;
+    double point[2][GRID * GRID * 8][3], least = INFINITY;
+    size_t count[2] = {0, 0};
+    imp_scene *at = imp_scene_at(scene, values, &error);
+    ck_assert_msg(at != NULL, "%s", error.text);
+    for (size_t body = 0; body < 2; ++body)
+        for (size_t k = 0; k < imp_scene_piece_count(at, body, 0) && k < 8; ++k) {
+            double lo[3], hi[3];
+            imp_piece_domain(at, (imp_place){body, 0, k}, lo, hi);
+            for (int i = 0; i < GRID * GRID; ++i) {
+                const double p[3] = {lo[0] + (hi[0] - lo[0]) * (i / GRID) / (GRID - 1),
+                                     lo[1] + (hi[1] - lo[1]) * (i % GRID) / (GRID - 1), t};
+                ck_assert_int_eq(imp_piece_eval(at, (imp_place){body, 0, k}, 1, p,
+                                                point[body][count[body]++], NULL, NULL),
+                                 IMP_SUCCESS);
+            }
+        }
+    for (size_t i = 0; i < count[0]; ++i)
+        for (size_t j = 0; j < count[1]; ++j) {
+            const double d = query_distance(point[0][i], point[1][j]);
+            if (d < least) least = d;
+        }
+    imp_scene_free(at);
+    return least;
+}
+
+static void check_box(uint64_t *r, const imp_scene *scene, const told_box *box, const char *text)
+{
+    double values[PARAMETERS];
+    const int corner = (int)(8 * random_fraction(r));
+    const bool at_corner = random_fraction(r) < 0.5; /* the worst of a box is there, mostly */
+    for (int j = 0; j < PARAMETERS; ++j)
+        values[j] = at_corner ? (corner >> j & 1 ? box->hi[j] : box->lo[j])
+                              : random_between(r, box->lo[j], box->hi[j]);
+    const double t = random_between(r, box->time[0], box->time[1]), d = sampled(scene, values, t);
+    ck_assert_msg(d >= box->lower, "%.17g at %.17g, %.17g, %.17g, t %.17g, but %.17g is proved: %s",
+                  d, values[0], values[1], values[2], t, box->lower, text);
+}
+
+START_TEST(no_sample_is_nearer_than_what_is_proved_of_its_box)
+{
+    uint64_t random = suite_seed() + (uint64_t)_i;
+    static told_boxes boxes;
+    const int scenes = suite_times(12);
+    for (int n = 0; n < scenes; ++n) {
+        char text[4000] = "{'parameters':{'p0':[-1,0.5],'p1':[0.2,1.2],'p2':[-0.4,0.4]},'bodies':[";
+        add_body(&random, text, sizeof text, 0);
+        strcat(text, ",");
+        add_body(&random, text, sizeof text, random_between(&random, 1, 4));
+        strcat(text, "]}");
+        imp_scene *scene = scene_of(text);
+        imp_survey_options how = imp_survey_options_default();
+        boxes.count = boxes.seen = 0;
+        boxes.random = &random;
+        how.sink = keep_box;
+        how.sink_context = &boxes;
+        how.max_boxes = 60;
+        imp_clearance_options asked = imp_clearance_options_default();
+        asked.tolerance = 0.2;
+        survey(scene, 0.02, n % 2 == 0 ? NULL : &asked, &how);
+        for (size_t k = 0; k < boxes.count; ++k) check_box(&random, scene, &boxes.at[k], text);
+        imp_scene_free(scene);
+    }
+}
+END_TEST
+
+/* --- What is wrong ---------------------------------------------------------------------------- */
+
+typedef struct wrong_scene {
+    const char *text, *words;
+} wrong_scene;
+
+#define BALL(CLOCK)                                                                                \
+    "'bodies':[{'surfaces':[{'type':'sphere'}],'maps':[{'type':'rotate','axis':[0,0,1],'rate':1,"  \
+    "'clock':" CLOCK "}]}]}"
+
+static const wrong_scene wrong[] = {
+    {"{" BALL("'a'"), "/bodies/0/maps/0/clock: got \"a\", which is no parameter"},
+    {"{'parameters':{'angle':[0,1]}," BALL("'angel'"), "did you mean 'angle'"},
+    {"{'parameters':{'a':[0,1]}," BALL("3"), "must be the name of one of the scene's"},
+    {"{'parameters':{'a':[1,0]}," BALL("'a'"), "/parameters/a: got the range [1, 0]"},
+    {"{'parameters':{'a':[0]}," BALL("'a'"), "/parameters/a"},
+    {"{'parameters':{'time':[0,1]}," BALL("'time'"), "other than \"time\""},
+    {"{'parameters':[0,1]," BALL("'a'"), "/parameters: got"},
+    {"{'parameters':{'a':[0,1]},'bodies':[{'surfaces':[{'type':'sphere'}],'maps':[{'type':"
+     "'rotate','axis':[0,0,1],'rate':1,'clok':'a'}]}]}",
+     "unknown parameter"}};
+
+START_TEST(wrong_clocks_and_parameters_are_refused)
+{
+    imp_error error;
+    imp_scene *scene = try_scene(wrong[_i].text, &error);
+    ck_assert_msg(scene == NULL, "%s is accepted", wrong[_i].text);
+    ck_assert_int_eq(error.code, IMP_ERROR_SCENE);
+    ck_assert_msg(strstr(error.text, wrong[_i].words) != NULL, "%s", error.text);
+}
+END_TEST
+
+START_TEST(a_query_about_one_pose_is_refused)
+{
+    imp_error error;
+    imp_scene *scene = scene_of(ARMS("[-1,1]", "[-1,1]"));
+    const imp_options options = imp_options_default(scene);
+    ck_assert_ptr_null(imp_query_new(scene, &options, &error));
+    ck_assert_int_eq(error.code, IMP_ERROR_USAGE);
+    const double outside[2] = {0, 1.5};
+    ck_assert_ptr_null(imp_scene_at(scene, outside, &error));
+    ck_assert_ptr_nonnull(strstr(error.text, "parameter 'b': got 1.5"));
+    imp_scene_free(scene);
+}
+END_TEST
+
+static const char TITLE[] = "survey";
+
+int main(void)
+{
+    TCase *tcase = tcase_create(TITLE);
+    Suite *suite = suite_create(TITLE);
+    tcase_set_timeout(tcase, 300);
+    tcase_add_checked_fixture(tcase, open_registry, close_registry);
+    tcase_add_test(tcase, balls_on_two_arms_are_as_near_as_the_law_of_cosines_says);
+    tcase_add_test(tcase, what_is_required_is_decided_for_all_values);
+    tcase_add_test(tcase, the_earliest_contact_is_that_of_the_worst_values);
+    tcase_add_test(tcase, a_common_parent_takes_no_part);
+    tcase_add_test(tcase, the_clock_time_changes_no_bit);
+    tcase_add_test(tcase, a_scene_at_values_stands_where_time_would_put_it);
+    tcase_add_loop_test(tcase, no_sample_is_nearer_than_what_is_proved_of_its_box, 0, 4);
+    tcase_add_loop_test(tcase, wrong_clocks_and_parameters_are_refused, 0,
+                        (int)(sizeof wrong / sizeof *wrong));
+    tcase_add_test(tcase, a_query_about_one_pose_is_refused);
+    suite_add_tcase(suite, tcase);
+    SRunner *runner = srunner_create(suite);
+    srunner_run_all(runner, CK_ENV);
+    const int failed = srunner_ntests_failed(runner);
+    srunner_free(runner);
+    return failed == 0 ? EXIT_SUCCESS : EXIT_FAILURE;
+}

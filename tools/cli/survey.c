@@ -1,0 +1,367 @@
+/* SPDX-FileCopyrightText: The Impinge authors
+ * SPDX-License-Identifier: Apache-2.0 */
+#include <config.h>
+
+#include "tools/cli/survey.h"
+
+#include <math.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "tools/cli/clearance.h"
+#include "tools/cli/interrupt.h"
+#include "tools/cli/output.h"
+#include "tools/cli/output_file.h"
+#include "tools/cli/progress.h"
+#include "tools/cli/query.h"
+#include "tools/cli/result.h"
+#include "tools/cli/verbs.h"
+
+const option options_parameters[] = {
+    {.name = "parameter",
+     .kind = OPTION_TEXT,
+     .argument = "NAME=LO,HI",
+     .help = "a parameter of the scene, or another range of one; as often as needed"},
+    {.name = NULL}};
+
+const option options_survey[] = {
+    {.name = "boxes",
+     .kind = OPTION_TEXT,
+     .argument = "FILE",
+     .help = "write the boxes of parameter values that are proved, and those left, a line each"},
+    {.name = "max-boxes",
+     .kind = OPTION_COUNT,
+     .argument = "N",
+     .help = "ask about at most N boxes of parameter values; 0: no limit (0)"},
+    {.name = NULL}};
+
+/* --- Parameters of the command line ----------------------------------------------------------- */
+
+/* Reads NAME=LO,HI; the name's length goes to *length. */
+static exit_status read_range(const char *text, size_t *length, double range[2],
+                              const arguments *args)
+{
+    const char *equals = strchr(text, '=');
+    char *end = NULL;
+    bool good = equals != NULL && equals > text;
+    if (good) range[0] = strtod(equals + 1, &end);
+    good = good && end != equals + 1 && *end == ',';
+    const char *second = good ? end + 1 : NULL;
+    if (good) range[1] = strtod(second, &end);
+    good = good && end != second && *end == '\0' && isfinite(range[0]) && isfinite(range[1]);
+    if (good) return *length = (size_t)(equals - text), EXIT_ANSWERED;
+    return complain(EXIT_USAGE, args->verb->name,
+                    "--parameter must be NAME=LO,HI, such as angle=0,1.5, not '%s'", text);
+}
+
+static exit_status set_parameters(json_t *scene, const arguments *args)
+{
+    json_t *all = json_object_get(scene, "parameters");
+    if (all == NULL) {
+        all = json_object();
+        if (json_object_set_new(scene, "parameters", all) != 0)
+            return complain_of_memory(args->verb->name);
+    }
+    for (size_t k = 0; k < args->value_count; ++k) {
+        size_t length = 0;
+        double range[2] = {0, 0};
+        char name[256];
+        if (strcmp(args->values[k].row->name, "parameter") != 0) continue;
+        const char *text = args->values[k].text;
+        const exit_status status = read_range(text, &length, range, args);
+        if (status != EXIT_ANSWERED) return status;
+        if (length >= sizeof name)
+            return complain(EXIT_USAGE, args->verb->name, "--parameter: the name is too long");
+        memcpy(name, text, length);
+        name[length] = '\0';
+        json_t *made = json_pack("[f,f]", range[0], range[1]);
+        if (!json_is_object(all))
+            json_decref(made); /* the reader complains */
+        else if (json_object_set_new(all, name, made) != 0)
+            return complain_of_memory(args->verb->name);
+    }
+    return EXIT_ANSWERED;
+}
+
+char *survey_add_parameters(char *text, size_t *length, const arguments *args)
+{
+    json_t *scene = json_loadb(text, *length, JSON_REJECT_DUPLICATES, NULL);
+    if (!json_is_object(scene)) return json_decref(scene), text;
+    const exit_status status = set_parameters(scene, args);
+    free(text);
+    text = status == EXIT_ANSWERED ? json_dumps(scene, JSON_COMPACT) : NULL;
+    json_decref(scene);
+    if (text == NULL && status == EXIT_ANSWERED) complain_of_memory(args->verb->name);
+    if (text != NULL) *length = strlen(text);
+    return text;
+}
+
+/* --- Whether it can be answered --------------------------------------------------------------- */
+
+bool survey_is_needed(const imp_scene *scene, const arguments *args)
+{
+    imp_scene_parameter_info info;
+    for (size_t k = 0; imp_scene_parameter(scene, k, &info); ++k)
+        if (!info.is_followed)
+            remark(args->verb->name,
+                   "warning: no surface or map has the parameter '%s' as its clock",
+                   message_shown(info.name).text);
+    return imp_scene_parameter_count(scene) > 0;
+}
+
+exit_status survey_check(const arguments *args)
+{
+    static const char *const others[] = {"each",    "refine", "explain", "proof",
+                                         "profile", "within", NULL};
+    for (size_t k = 0; others[k] != NULL; ++k)
+        if (arguments_option(args, others[k]) != NULL)
+            return complain(
+                EXIT_USAGE, args->verb->name,
+                "--%s does not go with parameters: the scene has some; leave the option "
+                "out, or give each parameter one value, without a range, by replacing "
+                "what follows it",
+                others[k]);
+    if (arguments_choice(args, "method", 0) != 0)
+        return complain(EXIT_USAGE, args->verb->name,
+                        "--method paper does not go with parameters: the scene has some");
+    return EXIT_ANSWERED;
+}
+
+/* --- JSON ------------------------------------------------------------------------------------- */
+
+static json_t *ranges_json(const imp_scene *scene, const double *lo, const double *hi)
+{
+    imp_scene_parameter_info info;
+    json_t *object = json_object();
+    for (size_t k = 0; imp_scene_parameter(scene, k, &info); ++k)
+        if (json_object_set_new(object, info.name, result_times_json(lo[k], hi[k])) != 0)
+            return json_decref(object), NULL;
+    return object;
+}
+
+static json_t *values_json(const imp_scene *scene, const double *values)
+{
+    imp_scene_parameter_info info;
+    json_t *object = json_object();
+    for (size_t k = 0; imp_scene_parameter(scene, k, &info); ++k)
+        if (json_object_set_new(object, info.name, output_json_number(values[k])) != 0)
+            return json_decref(object), NULL;
+    return object;
+}
+
+static json_t *bodies_json(const imp_scene *scene, const size_t body[2])
+{
+    if (body[0] == SIZE_MAX) return json_null();
+    return json_pack("[o,o]", output_json_text(imp_scene_body_name(scene, body[0])),
+                     output_json_text(imp_scene_body_name(scene, body[1])));
+}
+
+/* One line of --boxes. */
+typedef struct box_file {
+    const imp_scene *scene;
+    output_file out;
+    bool failed;
+} box_file;
+
+static void write_box(void *context, const imp_survey_box *box)
+{
+    box_file *to = context;
+    json_t *line = json_pack(
+        "{s:o, s:o, s:o, s:s, s:o}", "parameters", ranges_json(to->scene, box->lo, box->hi), "time",
+        result_times_json(box->t_start, box->t_end), "lower",
+        box->verdict == IMP_VERDICT_CLEAR ? output_json_number(box->lower) : json_null(), "verdict",
+        result_verdict_name(box->verdict), "bodies", bodies_json(to->scene, box->body));
+    char *text = output_json_line(line);
+    to->failed = to->failed || text == NULL;
+    if (text != NULL) fprintf(to->out.file, "%s\n", text);
+    free(text);
+}
+
+/* --- An answer -------------------------------------------------------------------------------- */
+
+typedef struct survey_run {
+    imp_scene *scene;
+    const arguments *args;
+    imp_survey *survey;
+    imp_survey_state state;
+    double *values, *lo, *hi; /* one block */
+    bool has_values;
+} survey_run;
+
+/* What stands beside an answer as JSON. `known`: the values are those of the answer. */
+static int set_state(json_t *object, const survey_run *r, bool known, bool undecided)
+{
+    int failed = json_object_set_new(object, "scene", query_scene_json(r->args));
+    failed |= json_object_set_new(object, "boxes", json_integer((json_int_t)r->state.boxes));
+    failed |= json_object_set_new(object, "parameters",
+                                  known ? values_json(r->scene, r->values) : json_null());
+    if (object != NULL) failed |= !result_set_warnings(object, r->scene);
+    if (!undecided) return failed;
+    failed |= json_object_set_new(object, "proved", output_json_number(r->state.proved));
+    if (r->state.has_worst)
+        failed |= json_object_set_new(
+            object, "worst",
+            json_pack("{s:o, s:o, s:o}", "parameters", ranges_json(r->scene, r->lo, r->hi), "time",
+                      result_times_json(r->state.worst_time[0], r->state.worst_time[1]), "bodies",
+                      bodies_json(r->scene, r->state.worst_body)));
+    if (r->has_values && !known)
+        failed |=
+            json_object_set_new(object, "known",
+                                json_pack("{s:o, s:o}", "t", output_json_number(r->state.t_upper),
+                                          "parameters", values_json(r->scene, r->values)));
+    return failed;
+}
+
+static exit_status print_json(const survey_run *r, json_t *object, bool known, bool undecided)
+{
+    if (object != NULL && set_state(object, r, known, undecided) != 0) {
+        json_decref(object);
+        object = NULL;
+    }
+    return output_json(object, r->args->verb->name);
+}
+
+static void print_values(const survey_run *r, const char *label)
+{
+    imp_scene_parameter_info info;
+    result_print_label(label);
+    for (size_t k = 0; imp_scene_parameter(r->scene, k, &info); ++k)
+        printf("%s%s = %.10g", k > 0 ? ", " : "", message_shown(info.name).text, r->values[k]);
+    putchar('\n');
+}
+
+static void print_ranges(const survey_run *r, const char *label, const double *lo, const double *hi)
+{
+    imp_scene_parameter_info info;
+    result_print_label(label);
+    for (size_t k = 0; imp_scene_parameter(r->scene, k, &info); ++k)
+        printf("%s%s from %.10g to %.10g", k > 0 ? ", " : "", message_shown(info.name).text, lo[k],
+               hi[k]);
+}
+
+static exit_status print_text(const survey_run *r, bool known, bool undecided)
+{
+    if (known) print_values(r, "values");
+    if (undecided) {
+        result_print_label("share");
+        printf("%s of all values and times is proved\n", output_number_lower(r->state.proved).text);
+        if (r->state.has_worst) {
+            print_ranges(r, "left", r->lo, r->hi);
+            printf(", t from %.10g to %.10g\n", r->state.worst_time[0], r->state.worst_time[1]);
+        }
+        if (r->has_values && !known) {
+            result_print_label("known");
+            printf("a contact at t = %.10g, but an earlier one is not excluded\n",
+                   r->state.t_upper);
+            print_values(r, "values");
+        }
+    }
+    result_print_label("boxes");
+    printf("%ju\n", (uintmax_t)r->state.boxes);
+    return output_flush(r->args->verb->name);
+}
+
+static exit_status tell_contact(const survey_run *r)
+{
+    imp_result result = {.struct_size = (uint32_t)sizeof result};
+    imp_survey_get_result(r->survey, &result, NULL);
+    const bool known = result.verdict == IMP_VERDICT_CONTACT;
+    const bool undecided = result.verdict == IMP_VERDICT_UNDECIDED;
+    exit_status status;
+    if (arguments_option(r->args, "json") != NULL) {
+        status = print_json(r, result_json(r->scene, &result), known, undecided);
+    } else {
+        result_print(r->scene, &result);
+        status = print_text(r, known, undecided);
+    }
+    return status != EXIT_ANSWERED ? status : query_status(&result, r->args);
+}
+
+static exit_status status_of_clearance(const imp_clearance *c)
+{
+    if (c->verdict == IMP_REQUIREMENT_VIOLATED) return EXIT_CONTACT;
+    if (c->verdict == IMP_REQUIREMENT_UNDECIDED) return EXIT_UNDECIDED;
+    return c->verdict == IMP_REQUIREMENT_HOLDS || c->reason == IMP_REASON_NONE ? EXIT_ANSWERED
+                                                                               : EXIT_UNDECIDED;
+}
+
+static exit_status tell_clearance(const survey_run *r)
+{
+    imp_clearance answer = {.struct_size = (uint32_t)sizeof answer};
+    imp_survey_get_clearance(r->survey, &answer, NULL);
+    const exit_status verdict = status_of_clearance(&answer);
+    const bool known = answer.has_witness, undecided = verdict == EXIT_UNDECIDED;
+    exit_status status;
+    if (arguments_option(r->args, "json") != NULL) {
+        status = print_json(r, clearance_json(r->scene, &answer), known, undecided);
+    } else {
+        clearance_print(r->scene, &answer, query_options(r->scene, r->args).gamma);
+        status = print_text(r, known, undecided);
+    }
+    return status != EXIT_ANSWERED ? status : verdict;
+}
+
+/* --- Running ---------------------------------------------------------------------------------- */
+
+static exit_status run_to_end(survey_run *r, const imp_survey_options *how,
+                              const imp_clearance_options *asked)
+{
+    imp_error error = {0};
+    imp_options options = query_options(r->scene, r->args);
+    crew threads = {query_threads_asked(r->args)};
+    query_lend_threads(&options, &threads);
+    const size_t count = imp_scene_parameter_count(r->scene);
+    r->values = calloc(3 * count + 1, sizeof *r->values);
+    if (r->values == NULL) return complain_of_memory(r->args->verb->name);
+    r->lo = r->values + count, r->hi = r->lo + count;
+    r->survey = imp_survey_new(r->scene, &options, asked, how, &error);
+    if (r->survey == NULL || imp_survey_step(r->survey, 0, &error) != IMP_SUCCESS)
+        return complain_of(&error, r->args->verb->name);
+    progress_wipe();
+    r->state = (imp_survey_state){.struct_size = (uint32_t)sizeof r->state};
+    imp_survey_get_state(r->survey, &r->state, NULL);
+    r->has_values = imp_survey_values(r->survey, r->values);
+    imp_survey_worst(r->survey, r->lo, r->hi);
+    return EXIT_ANSWERED;
+}
+
+static exit_status run(imp_scene *scene, const imp_clearance_options *asked, const arguments *args)
+{
+    survey_run r = {.scene = scene, .args = args};
+    imp_survey_options how = imp_survey_options_default();
+    const option_value *path = arguments_option(args, "boxes");
+    box_file boxes = {.scene = scene};
+    exit_status status = survey_check(args);
+    if (status != EXIT_ANSWERED) return status;
+    how.max_boxes = arguments_count(args, "max-boxes", 0);
+    if (path != NULL) {
+        status = output_file_begin(&boxes.out, path->text, args->verb->name);
+        if (status != EXIT_ANSWERED) return status;
+        how.sink = write_box;
+        how.sink_context = &boxes;
+    }
+    status = run_to_end(&r, &how, asked);
+    if (path != NULL) {
+        const exit_status written =
+            output_file_end(&boxes.out, status == EXIT_ANSWERED && !boxes.failed);
+        if (status == EXIT_ANSWERED) status = written;
+        if (boxes.failed && status == EXIT_ANSWERED) status = complain_of_memory(args->verb->name);
+    }
+    if (status == EXIT_ANSWERED) status = asked != NULL ? tell_clearance(&r) : tell_contact(&r);
+    imp_survey_free(r.survey);
+    free(r.values);
+    return status;
+}
+
+exit_status survey_contact(imp_scene *scene, const arguments *args)
+{
+    interrupt_prepare();
+    return run(scene, NULL, args);
+}
+
+exit_status survey_clearance(imp_scene *scene, const imp_clearance_options *asked,
+                             const arguments *args)
+{
+    return run(scene, asked, args);
+}
