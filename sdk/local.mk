@@ -96,6 +96,7 @@ python_module = \
     sdk/python/impinge/_parts.py \
     sdk/python/impinge/_query.py \
     sdk/python/impinge/_registry.py \
+    sdk/python/impinge/_survey.py \
     sdk/python/impinge/_values.py \
     sdk/python/impinge/batching.py \
     sdk/python/impinge/builder.py \
@@ -108,7 +109,9 @@ python_module = \
 python_robot = \
     sdk/python/impinge/robot/__init__.py \
     sdk/python/impinge/robot/__main__.py \
+    sdk/python/impinge/robot/_check.py \
     sdk/python/impinge/robot/_course.py \
+    sdk/python/impinge/robot/_matrix_report.py \
     sdk/python/impinge/robot/_moveit.py \
     sdk/python/impinge/robot/_positions.py \
     sdk/python/impinge/robot/_report.py \

@@ -751,9 +751,11 @@ EXTRA_DIST += \
     tests/python/test_hostile.py \
     tests/python/test_impinge.py \
     tests/python/test_pictures.py \
+    tests/python/test_parameters.py \
     tests/python/test_robot.py \
     tests/python/test_robot_command.py \
     tests/python/test_robot_files.py \
+    tests/python/test_robot_matrix.py \
     tests/python/test_text.py \
     tests/python/typed.py
 EXTRA_DIST += tests/variants tests/distributions tests/support/timed

@@ -297,6 +297,7 @@ dist_man_MANS += tools/impinge.1
 pkgdata_DATA = \
     tools/data/arm.csv \
     tools/data/arm.json \
+    tools/data/arm.srdf \
     tools/data/arm.urdf \
     tools/data/arm_shelf.yaml \
     tools/data/bicubic_moving_100.jsonl \

@@ -120,6 +120,8 @@ def scene_of(made: document.Document, name: str) -> Scene:
     folder = os.getcwd()
     with _Assembly() as assembly:
         assembly.call(lib.library.imp_builder_time, *made["time"])
+        for name, ends in made.get("parameters", {}).items():
+            assembly.call(lib.library.imp_builder_parameter, values.text("parameters", name), *ends)
         index = {}
         for k, body in enumerate(made["bodies"]):
             assembly.body(k, body)

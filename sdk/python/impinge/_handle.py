@@ -7,7 +7,7 @@ import ctypes as c
 import os
 import threading
 import weakref
-from typing import Any, Callable, Set, Tuple
+from typing import Any, Callable, Optional, Set, Tuple
 
 from . import _document as document
 from . import _library as lib
@@ -34,8 +34,9 @@ class Handle:
 
     _all: "weakref.WeakSet[Handle]" = weakref.WeakSet()
 
-    def __init__(self, address: int, make_document: MakeDocument):
-        self._make_document = make_document
+    def __init__(self, address: int, make_document: MakeDocument,
+                 make_address: Optional[Callable[[], int]] = None):
+        self._make_document, self._make_address = make_document, make_address
         self._lock = threading.Lock()
         self.users: Set[object] = set()  # queries that are open
         self._take(address)
@@ -52,7 +53,8 @@ class Handle:
         """Where the scene is; only to be handed to the library while this object lives."""
         with self._lock:
             if not self._finalizer.alive:
-                self._take(from_text(self.text().encode(), b"scene"))
+                self._take(from_text(self.text().encode(), b"scene") if self._make_address is None
+                           else self._make_address())
             return self._address
 
     def document(self) -> document.Document:

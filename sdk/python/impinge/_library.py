@@ -182,6 +182,36 @@ class TypeInfo(c.Structure):
     ]
 
 
+class SceneParameter(c.Structure):
+    _fields_ = [("name", c.c_char_p), ("lo", c.c_double), ("hi", c.c_double), ("is_followed", c.c_bool)]
+
+
+class SurveyOptions(c.Structure):
+    _fields_ = [
+        ("struct_size", c.c_uint32),
+        ("any", c.c_bool),
+        ("body", c.c_size_t * 2),
+        ("max_boxes", c.c_uint64),
+        ("sink", c.c_void_p),
+        ("sink_context", c.c_void_p),
+    ]
+
+
+class SurveyState(c.Structure):
+    _fields_ = [
+        ("struct_size", c.c_uint32),
+        ("reason", c.c_int),
+        ("boxes", c.c_uint64),
+        ("waiting", c.c_uint64),
+        ("proved", c.c_double),
+        ("t_upper", c.c_double),
+        ("pairs_of_bodies", c.c_size_t),
+        ("has_worst", c.c_bool),
+        ("worst_body", c.c_size_t * 2),
+        ("worst_time", c.c_double * 2),
+    ]
+
+
 class Stage(c.Structure):
     _fields_ = [("kind", c.c_int), ("type", c.c_char_p), ("identity", c.c_void_p)]
 
@@ -220,6 +250,7 @@ _FUNCTIONS = {
     "imp_builder_free": (None, _P),
     "imp_builder_time": (c.c_int, _P, _D, _D, _E),
     "imp_builder_gamma": (c.c_int, _P, _D, _D, _E),
+    "imp_builder_parameter": (c.c_int, _P, _S, _D, _D, _E),
     "imp_builder_body": (c.c_int, _P, _S, c.POINTER(_N), _E),
     "imp_builder_solid": (c.c_int, _P, _N, c.c_bool, _E),
     "imp_builder_surface": (c.c_int, _P, _N, _S, _A, _N, _E),
@@ -230,6 +261,17 @@ _FUNCTIONS = {
     "imp_builder_group": (c.c_int, _P, _N, _S, _E),
     "imp_builder_ignore": (c.c_int, _P, _S, _S, _E),
     "imp_builder_finish": (_P, _P, _E),
+    "imp_scene_parameter": (c.c_bool, _P, _N, c.POINTER(SceneParameter)),
+    "imp_scene_at": (_P, _P, c.POINTER(_D), _E),
+    "imp_survey_options_get_default": (c.c_int, c.POINTER(SurveyOptions), _E),
+    "imp_survey_new": (_P, _P, c.POINTER(Options), c.POINTER(ClearanceOptions), c.POINTER(SurveyOptions), _E),
+    "imp_survey_free": (None, _P),
+    "imp_survey_step": (c.c_int, _P, c.c_uint64, _E),
+    "imp_survey_cancel": (None, _P),
+    "imp_survey_get_result": (c.c_int, _P, c.POINTER(Result), _E),
+    "imp_survey_get_clearance": (c.c_int, _P, _P, _E),
+    "imp_survey_values": (c.c_bool, _P, _P),
+    "imp_survey_get_state": (c.c_int, _P, c.POINTER(SurveyState), _E),
     "imp_options_get_default": (c.c_int, _P, c.POINTER(Options), _E),
     "imp_scene_ignores": (c.c_bool, _P, _N, _N),
     "imp_query_new": (_P, _P, c.POINTER(Options), _E),

@@ -21,7 +21,7 @@ ProgressSink = Callable[[Progress], Optional[bool]]
 
 _PAIRS = 1000  # tested between looks at signals: some milliseconds
 _CHUNK = 4096  # answers read into one array: about 2 MB
-_SECONDS = 0.1  # between calls of a progress sink
+SECONDS = 0.1  # between calls of a progress sink
 
 
 class Settings(NamedTuple):
@@ -166,7 +166,7 @@ class Query:
             answer = self.step_once()
             if answer.reason != lib.RUNNING:
                 return answer
-            if monotonic() - told >= _SECONDS:
+            if monotonic() - told >= SECONDS:
                 self._tell(answer)
                 told = monotonic()
 

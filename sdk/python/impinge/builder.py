@@ -60,12 +60,14 @@ def _stage(stage: Any) -> Tuple[str, Dict[str, Any]]:
 class Builder:
     """Builds a scene: bodies, their surfaces and maps, parents, groups, who ignores whom. Parameters
     are numbers, strings, booleans, dicts of numbers, sequences and NumPy arrays, which go by pointer. Names
-    of files begin at the working directory. Without `time` a scene is examined for the span that its tables
+    of files begin at the working directory. `parameters` are quantities beside time, with their ranges: a
+    surface or a map with clock="NAME" has the value of one for its t. Without `time` a scene is examined for the span that its tables
     and keyframes share, from 0 to 1 if it has none. What is nearer than `gamma_clear` (half of gamma) is
     never missed. Several threads may use one builder, one after the other."""
 
     def __init__(self, *, time: Optional[Sequence[float]] = None, gamma: float = 1e-6,
-                 gamma_clear: Optional[float] = None):
+                 gamma_clear: Optional[float] = None,
+                 parameters: Optional[Mapping[str, Sequence[float]]] = None):
         self._lock = threading.RLock()
         self._handle = lib.library.imp_builder_new(Registry.handle())
         if not self._handle:
@@ -83,6 +85,14 @@ class Builder:
         self._call(lib.library.imp_builder_gamma, gamma, clear)
         if gamma_clear is not None:
             self._document["gamma_clear"] = clear
+        if parameters is not None and not isinstance(parameters, Mapping):
+            raise values.refuse("parameters", parameters, "a dict from names to ranges")
+        for name, ends in (parameters or {}).items():
+            lo, hi = values.interval(f"parameters: {name}", ends)
+            if not -float("inf") < lo <= hi < float("inf"):
+                raise values.refuse(f"parameters: {name}", ends, "a range (lo, hi) of finite numbers, lo <= hi")
+            self._call(lib.library.imp_builder_parameter, values.text("parameters: a name", name), lo, hi)
+            self._document.setdefault("parameters", {})[name] = [lo, hi]
 
     def __reduce__(self) -> Any:
         raise TypeError("a Builder cannot be copied or pickled; its scene can: builder.build()")

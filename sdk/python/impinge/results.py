@@ -5,7 +5,7 @@
 
 import ctypes as c
 from dataclasses import dataclass, field, fields
-from typing import Any, Iterable, List, Literal, Optional, Tuple
+from typing import Any, Dict, Iterable, List, Literal, Optional, Tuple
 
 import numpy
 from numpy.typing import NDArray
@@ -80,6 +80,8 @@ class Result:
     t_examined: Optional[Tuple[float, float]] = None  # when two surfaces that are tested are there
     stats: Optional[Stats] = field(default=None, compare=False)
     kind: Optional[Kind] = None  # of a contact; "inside": one is inside the other, which is solid
+    parameters: Optional[Dict[str, float]] = None  # of a scene with parameters: values at which it happens
+    proved: Optional[float] = None  # of a scene with parameters: the share of all values that is proved
 
     def time_left(self, t: float) -> float:
         """Time left from t until contact; negative when that is past, infinite when clear."""
@@ -126,6 +128,8 @@ class Clearance:
     b_violated: Optional[Side] = None
     stats: Optional[Stats] = field(default=None, compare=False)
     kind: Optional[Kind] = None  # of the witness; "inside": one is inside the other, which is solid
+    parameters: Optional[Dict[str, float]] = None  # of a scene with parameters: values of the witness
+    proved: Optional[float] = None  # of a scene with parameters: the share of all values that is proved
 
 
 @dataclass(frozen=True, eq=False)

@@ -5,7 +5,8 @@
 
 import ctypes as c
 import os
-from typing import Any, Dict, Iterable, Iterator, List, Optional, Sequence, Tuple, Type, TypeVar, cast
+from dataclasses import replace
+from typing import Any, Dict, Iterable, Iterator, List, Mapping, Optional, Sequence, Tuple, Type, TypeVar, cast
 
 import numpy
 
@@ -18,6 +19,7 @@ from ._handle import Handle, from_text
 from ._parts import Parts
 from ._query import ProgressSink, Query, Settings, Wanted
 from ._registry import Registry
+from ._survey import Survey, parameters_of
 from .errors import UsageError, check
 from .pictures import Format, Picture, draw
 from .results import Clearance, Profile, Result, clearance_of, profile_of, result_of
@@ -34,9 +36,14 @@ class Scene:
     end them as "undecided", `audit=True`, which holds what plugins claim against points of them, and
     `progress`: a function that is called with a `Progress` about ten times a second, and ends the
     question, as "undecided", by returning False. An exception that it raises, or Ctrl-C, ends the
-    question. Wrong arguments are a `UsageError`, which names them."""
+    question. Wrong arguments are a `UsageError`, which names them.
+
+    Of a scene with `parameters` (their ranges, by name) `solve` and `clearance` ask about all values at once;
+    other questions are asked `at` values."""
 
     bodies: Tuple[str, ...]
+    parameters: Dict[str, Tuple[float, float]]
+    _posed: Optional[Tuple["Scene", Tuple[float, ...]]] = None  # of whom it is `at` these values
 
     def __init__(self, path: values.Path):
         name = values.path("path", path)
@@ -44,7 +51,7 @@ class Scene:
 
     def _begin(self, handle: Handle) -> None:
         self._handle = handle
-        self.bodies = handle.names()
+        self.bodies, self.parameters = handle.names(), parameters_of(handle)
 
     def _begin_text(self, data: bytes, name: str) -> None:
         """As the text says; relative names of files begin at the folder of `name`."""
@@ -105,14 +112,51 @@ class Scene:
         return copied
 
     def __getstate__(self) -> Dict[str, Any]:
-        return {**self.__dict__, "_handle": self.to_json()}
+        return {**self.__dict__, "_handle": None if self._posed is not None else self.to_json()}
 
     def __setstate__(self, state: Dict[str, Any]) -> None:
         self.__dict__.update(state)
+        if self._posed is not None:
+            whole, chosen = self._posed
+            self.__dict__.update(whole.at(dict(zip(whole.parameters, chosen))).__dict__)
+            return
         self._begin_text(cast(str, state["_handle"]).encode(), "pickled scene")
 
     def __deepcopy__(self: AnyScene, memo: Any) -> AnyScene:
         return self.__copy__()
+
+    # --- Values of its parameters ---------------------------------------------------------------
+
+    def at(self: AnyScene, given: Mapping[str, float]) -> AnyScene:
+        """The scene at these values of its parameters, a scene without them; what is not given is in the
+        middle of its range. It shares what their surfaces were made of."""
+        if not isinstance(given, Mapping):
+            raise values.refuse("given", given, "a dict from names to values")
+        for name in given:
+            if name not in self.parameters:
+                raise values.refuse("at", name, f"a parameter: {', '.join(self.parameters) or 'none'}")
+        chosen = tuple(values.number(f"at: {name}", given[name]) if name in given else 0.5 * lo + 0.5 * hi
+                       for name, (lo, hi) in self.parameters.items())
+        if not chosen:
+            return self.__copy__()
+        scene = type(self).__new__(type(self))
+        scene._begin(Handle(self._address_at(chosen), lambda: self._document_at(chosen),
+                            lambda: self._address_at(chosen)))
+        scene._posed = self, chosen
+        return scene
+
+    def _address_at(self, chosen: Tuple[float, ...]) -> int:
+        error = lib.Error()
+        address = lib.library.imp_scene_at(self._handle.address, (c.c_double * len(chosen))(*chosen),
+                                           c.byref(error))
+        if not address:
+            check(error.code, error)
+        return int(address)
+
+    def _document_at(self, chosen: Tuple[float, ...]) -> document.Document:
+        """The parameters with ranges of one value."""
+        ranges = {name: [value, value] for name, value in zip(self.parameters, chosen)}
+        return {**self._handle.document(), "parameters": ranges}
 
     # --- Points -----------------------------------------------------------------------------------
 
@@ -202,6 +246,11 @@ class Scene:
         so many threads (one); the answer is the same."""
         settings = Settings(time, gamma, gamma_clear, max_pairs, max_seconds, max_bytes, audit, progress,
                             threads)
+        if self.parameters:
+            with Survey(self._handle, settings) as survey:
+                state = survey.run()
+                return replace(result_of(self.bodies, survey.result()), parameters=state.values,
+                               proved=state.proved)
         with Query(self._handle, settings) as query:
             return result_of(self.bodies, query.step())
 
@@ -272,6 +321,11 @@ class Scene:
         surfaces are built, and bodies sorted out, by so many threads (one); the answer is the same."""
         settings = Settings(time, gamma, None, max_pairs, max_seconds, max_bytes, audit, progress,
                             threads)
+        if self.parameters:
+            with Survey(self._handle, settings, Wanted(required, tolerance)) as survey:
+                state = survey.run()
+                return replace(clearance_of(self.bodies, survey.clearance()), parameters=state.values,
+                               proved=state.proved)
         with Query(self._handle, settings, Wanted(required, tolerance)) as query:
             query.step()
             return clearance_of(self.bodies, query.clearance(0))

@@ -20,6 +20,7 @@ from .. import _values as values
 from .._assembly import scene_of, share
 from ..errors import SceneError, UsageError
 from ..scene import Scene
+from ._check import Limits, LinkPair, Links, check_pair
 from ._course import Course, maps_of_joint
 from ._moveit import Matrix, World, read_world
 from ._positions import Positions, Variables
@@ -27,7 +28,7 @@ from ._shapes import Pose, pose_of, surface_at
 from ._srdf import Semantics, read_srdf
 from ._urdf import Joint, Model, Shape, read_urdf
 
-__all__ = ["Joint", "Matrix", "Robot", "Shape", "World", "load"]
+__all__ = ["Joint", "LinkPair", "Matrix", "Robot", "Shape", "World", "load"]
 
 AnyWorld = Union[values.Path, World, Sequence[Mapping[str, Any]]]
 Pairs = Iterable[Tuple[str, str]]
@@ -99,6 +100,34 @@ class Robot:
         if name not in self.states:
             raise values.refuse("state", name, f"one of {', '.join(sorted(self.states)) or 'none'}")
         return dict(self.states[name])
+
+    # --- All positions ----------------------------------------------------------------------------
+
+    def check_pair(self, a: str, b: str, *, gamma: Optional[float] = None,
+                   max_seconds: float = 10) -> LinkPair:
+        """Do two links ever touch, over all positions of the joints between them? A search ends as
+        undecided after `max_seconds`. Links are surfaces: one inside of another touches nothing."""
+        for link in (a, b):
+            if link not in self.links:
+                raise values.refuse("link", link, f"one of {', '.join(self.links)}")
+        self._share()
+        disabled = self._semantics.disabled
+        reason = disabled.get((a, b), disabled.get((b, a)))
+        return check_pair(Links(self._model, self._frames, self._surfaces), (a, b), reason,
+                          Limits(gamma, max_seconds))
+
+    def matrix(self, all: bool = False) -> List[Tuple[str, str]]:
+        """The pairs of links that the SRDF file disables, or all pairs; without frames."""
+        solid = [link for link in self.links if self._model.links[link]]
+        pairs = ((a, b) for k, a in enumerate(solid) for b in solid[k + 1:]) if all else \
+            (pair for pair in self._semantics.disabled if set(pair) <= set(solid) and pair[0] != pair[1])
+        return list(pairs)
+
+    def check_matrix(self, *, all: bool = False, gamma: Optional[float] = None,
+                     max_seconds: float = 10) -> List[LinkPair]:
+        """Checks each pair of links that the SRDF file disables, or all pairs, over all positions of the
+        joints between the two. `max_seconds` is for each pair."""
+        return [self.check_pair(a, b, gamma=gamma, max_seconds=max_seconds) for a, b in self.matrix(all)]
 
     @property
     def rest(self) -> Dict[str, float]:

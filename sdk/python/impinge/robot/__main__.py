@@ -11,6 +11,8 @@ from typing import Any, Dict, List, NoReturn, Optional
 from ..errors import ImpingeError, PluginError, UsageError
 from . import Robot, load
 from ._course import Table, read_table
+from ._matrix_report import as_json as matrix_json
+from ._matrix_report import line_of, status_of, summary_of
 from ._moveit import read_request
 from ._report import Answer, as_json, as_text, sample
 
@@ -59,6 +61,11 @@ def _parser() -> argparse.ArgumentParser:
     parser.add_argument("--group", metavar="NAME", help="Q,Q,... are those of the joints of this group")
     parser.add_argument("--world", metavar="FILE.yaml", help="a planning scene; its allowed collision matrix, if it has "
                                                              "one, replaces what the SRDF file disables")
+    parser.add_argument("--check-matrix", action="store_true",
+                        help="instead of a motion: do the links that the SRDF file disables ever touch, over all "
+                             "positions of the joints between them? (--max-seconds for each pair: 10)")
+    parser.add_argument("--all", action="store_true", help="with --check-matrix: all pairs of links, and which of them "
+                                                           "could be disabled")
     parser.add_argument("--require", type=_positive, metavar="DISTANCE", help="is this distance kept?")
     parser.add_argument("--gamma", type=_positive, help="what is no farther apart touches (1e-6)")
     parser.add_argument("--max-seconds", type=_positive, metavar="S", help="end as undecided")
@@ -177,6 +184,43 @@ def _answer(asked: argparse.Namespace) -> Answer:
     return Answer(contact, clearance, samples, notes)
 
 
+def _check_matrix(asked: argparse.Namespace) -> int:
+    """Tells about each pair of links as soon as it is known; the exit status."""
+    robot = load(asked.urdf, asked.srdf, _packages(asked.package))
+    if not asked.all and not robot.matrix():
+        raise UsageError("--check-matrix: no pair of links is disabled; give --srdf FILE with <disable_collisions>, "
+                         "or --all for all pairs")
+    limits = {} if asked.max_seconds is None else {"max_seconds": asked.max_seconds}
+    pairs = []
+    for a, b in robot.matrix(asked.all):
+        pairs.append(robot.check_pair(a, b, gamma=asked.gamma, **limits))
+        if not asked.json:
+            print(line_of(pairs[-1]), flush=True)
+    print(json.dumps(matrix_json(pairs)) if asked.json else "\n".join(summary_of(pairs)))
+    return status_of(pairs)
+
+
+def _refuse_beside_matrix(asked: argparse.Namespace) -> None:
+    for name in ("trajectory", "request", "start", "goal", "world", "require", "compare_samples", "view"):
+        if getattr(asked, name) is not None:
+            raise UsageError(f"--{name.replace('_', '-')}: is of no use with --check-matrix, which asks about all "
+                             "positions of the joints")
+
+
+def _run(asked: argparse.Namespace) -> int:
+    """Answers what is asked; the exit status."""
+    if asked.all and not asked.check_matrix:
+        raise UsageError("--all: belongs to --check-matrix")
+    if asked.check_matrix:
+        _refuse_beside_matrix(asked)
+        return _check_matrix(asked)
+    answer = _answer(asked)
+    for note in answer.notes:
+        print(f"impinge.robot: warning: {note}", file=sys.stderr)
+    print(json.dumps(as_json(answer)) if asked.json else as_text(answer))
+    return _STATUS[answer.verdict]
+
+
 def _fail(error: Exception, json_asked: bool) -> None:
     print(f"impinge.robot: {error}", file=sys.stderr)
     if json_asked:
@@ -187,16 +231,12 @@ def main(line: List[str]) -> int:
     """Answers a command line; its exit status."""
     json_asked = "--json" in line
     try:
-        answer = _answer(_parser().parse_args(_joined(line)))
+        return _run(_parser().parse_args(_joined(line)))
     except (ImpingeError, MemoryError) as error:
         _fail(error, json_asked)
         if isinstance(error, UsageError):
             return 2
         return 5 if isinstance(error, PluginError) else 4
-    for note in answer.notes:
-        print(f"impinge.robot: warning: {note}", file=sys.stderr)
-    print(json.dumps(as_json(answer)) if json_asked else as_text(answer))
-    return _STATUS[answer.verdict]
 
 
 if __name__ == "__main__":

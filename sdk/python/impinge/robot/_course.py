@@ -6,7 +6,7 @@
 import csv
 import math
 from dataclasses import dataclass
-from typing import Any, Dict, List, Mapping, NamedTuple, Optional, Sequence
+from typing import Any, Dict, List, Mapping, NamedTuple, Optional, Sequence, Union
 
 import numpy
 
@@ -118,6 +118,26 @@ class Course:
         return [] if line == [0.0] else [Stage({"type": "translate", "offset": [[x * c for x in along] for c in line]})]
 
 
+@dataclass(frozen=True)
+class Following:
+    """How a joint goes with a parameter of the scene: at `factor` times it plus `offset`."""
+
+    parameter: str
+    factor: float = 1.0
+    offset: float = 0.0
+
+    def turned(self, axis: Sequence[float], center: Sequence[float] = (0, 0, 0)) -> List[Stage]:
+        """The maps of a joint that turns about an axis through a centre."""
+        return [Stage({"type": "rotate", "axis": list(axis), "center": list(center),
+                       "angle": [self.offset, self.factor], "clock": self.parameter})]
+
+    def shifted(self, axis: Sequence[float]) -> List[Stage]:
+        """The maps of a joint that slides along an axis."""
+        length = math.hypot(*axis)
+        return [Stage({"type": "translate", "clock": self.parameter,
+                       "offset": [[x / length * c for x in axis] for c in (self.offset, self.factor)]})]
+
+
 def _floating(joint: Joint, courses: Mapping[str, Course]) -> List[Stage]:
     """The maps of a joint that moves and turns freely: at constant speed and spin from key to key."""
     columns = [courses[name] for name in joint.variables]
@@ -148,6 +168,12 @@ def _spins(times: values.Floats, rotations: values.Floats) -> values.Floats:
     return numpy.array(spins)
 
 
+def maps_of_hinge(joint: Joint, frame: Pose, course: Union[Course, Following]) -> List[Stage]:
+    """The maps of a joint that turns or slides, where its frame is at rest."""
+    axis = rotated(frame.turn, joint.axis)
+    return course.shifted(axis) if joint.kind == "prismatic" else course.turned(axis, frame.xyz)
+
+
 def maps_of_joint(joint: Joint, frame: Pose, courses: Mapping[str, Course]) -> List[Stage]:
     """The maps by which a joint moves what is below it, where its frame is at rest; none where it stays at
     0. With the axes of the robot at rest (the product of exponentials) a joint is one map."""
@@ -160,5 +186,4 @@ def maps_of_joint(joint: Joint, frame: Pose, courses: Mapping[str, Course]) -> L
         x, y, theta = (courses[name] for name in joint.variables)
         across = [rotated(frame.turn, axis) for axis in ((1, 0, 0), (0, 1, 0), (0, 0, 1))]
         return [*theta.turned(across[2], frame.xyz), *x.shifted(across[0]), *y.shifted(across[1])]
-    course, axis = courses[joint.name], rotated(frame.turn, joint.axis)
-    return course.shifted(axis) if joint.kind == "prismatic" else course.turned(axis, frame.xyz)
+    return maps_of_hinge(joint, frame, courses[joint.name])

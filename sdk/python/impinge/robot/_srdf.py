@@ -13,11 +13,12 @@ from ._urdf import Element, Joint, Model, parse
 
 @dataclass
 class Semantics:
-    """What an SRDF file says: pairs of links that are never tested with each other; the joints of each
+    """What an SRDF file says: pairs of links that are never tested with each other, each with its reason (""
+    if it gives none); the joints of each
     group, parents before children; the named states, by group and name, from joints to positions; the
     frames in which virtual joints put the robot."""
 
-    disabled: List[Tuple[str, str]] = field(default_factory=list)
+    disabled: Dict[Tuple[str, str], str] = field(default_factory=dict)
     groups: Dict[str, Tuple[str, ...]] = field(default_factory=dict)
     states: Dict[Tuple[str, str], Dict[str, float]] = field(default_factory=dict)
     frames: Set[str] = field(default_factory=set)
@@ -43,8 +44,9 @@ class _Reader:
     def read(self) -> Semantics:
         root, read = parse(self._path), Semantics()
         for element in root.findall("disable_collisions"):
-            read.disabled.append((self.name(element, "link1", self._model.links, "disable_collisions"),
-                                  self.name(element, "link2", self._model.links, "disable_collisions")))
+            pair = (self.name(element, "link1", self._model.links, "disable_collisions"),
+                    self.name(element, "link2", self._model.links, "disable_collisions"))
+            read.disabled[pair] = element.get("reason", "")
         read.frames = {element.get("parent_frame", "") for element in root.findall("virtual_joint")}
         for element in root.findall("group"):
             self._elements[element.get("name", "")] = element

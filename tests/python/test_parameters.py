@@ -1,0 +1,86 @@
+# SPDX-FileCopyrightText: The Impinge authors
+# SPDX-License-Identifier: Apache-2.0
+
+"""Scenes with parameters: one answer about all values."""
+
+import math
+import pickle
+
+import impinge
+import pytest
+
+
+def arm(radius=0.25, reach=(0.0, 0.5)):
+    """A ball at the end of an arm of length 2 that turns by `a` and slides outward by `s`, and one that
+    rests at (3, 0, 0): at a and s their centres are sqrt(9 + (2+s)^2 - 6 (2+s) cos a) apart."""
+    builder = impinge.Builder(time=(0, 1), parameters={"a": (0.25, 1.5), "s": reach})
+    builder.body("rest").surface("sphere", radius=radius, center=[3, 0, 0])
+    moved = builder.body("hand").surface("sphere", radius=radius, center=[2, 0, 0])
+    moved.map("translate", velocity=[1, 0, 0], clock="s").map("rotate", axis=[0, 0, 1], rate=1, clock="a")
+    return builder.build()
+
+
+def apart(a, s):
+    return math.sqrt(9 + (2 + s) ** 2 - 6 * (2 + s) * math.cos(a))
+
+
+def test_the_least_distance_over_all_values_is_that_of_the_law_of_cosines():
+    scene, best = arm(), apart(0.25, 0.5) - 0.5
+    found = scene.clearance(tolerance=1e-3)
+    assert scene.parameters == {"a": (0.25, 1.5), "s": (0.0, 0.5)}
+    assert found.lower <= best <= found.upper and found.upper - found.lower <= 1e-3 * found.upper
+    assert apart(**found.parameters) - 0.5 <= found.upper * (1 + 1e-9)
+    assert scene.clearance(required=0.99 * best).verdict == "holds"
+    broken = scene.clearance(required=1.05 * best)
+    assert broken.verdict == "violated" and apart(**broken.parameters) - 0.5 <= 1.05 * best
+
+
+def test_a_contact_names_values_where_it_is():
+    scene = arm(radius=0.5)
+    found = scene.solve()
+    assert found.verdict == "contact" and apart(**found.parameters) <= 1 + 1e-5
+    assert found.bodies == ("rest", "hand")
+    clear = arm().solve()
+    assert clear.verdict == "clear" and clear.proved == 1 and clear.parameters is None
+
+
+def test_a_scene_at_values_is_a_scene_without_parameters():
+    scene = arm()
+    one = scene.at({"a": 1.0, "s": 0.25})
+    assert one.parameters == {} and one.clearance(tolerance=1e-9).upper == pytest.approx(apart(1.0, 0.25) - 0.5)
+    assert scene.at({"a": 1.0}).clearance() == one.clearance()  # the middle of s
+    assert pickle.loads(pickle.dumps(one)).clearance() == one.clearance()
+    again = impinge.Scene.from_json(one.to_json())
+    assert again.parameters == {"a": (1.0, 1.0), "s": (0.25, 0.25)}
+    assert again.clearance(tolerance=1e-6).upper == pytest.approx(apart(1.0, 0.25) - 0.5, rel=1e-5)
+
+
+def test_a_scene_with_parameters_is_written_and_read():
+    scene = arm()
+    for again in (impinge.Scene.from_json(scene.to_json()), pickle.loads(pickle.dumps(scene))):
+        assert again.parameters == scene.parameters
+        assert again.solve().verdict == "clear"
+
+
+def test_a_limit_and_a_sink_leave_it_undecided():
+    scene = arm(radius=0.4)
+    assert scene.clearance(tolerance=1e-8, max_pairs=200).reason == "pairs"
+    assert scene.clearance(tolerance=1e-8, progress=lambda p: False).reason == "cancelled"
+
+
+@pytest.mark.parametrize("ends", [(1, 0), (0, math.inf), (math.nan, 1), 3])
+def test_wrong_ranges_are_named(ends):
+    with pytest.raises(impinge.UsageError, match="parameters: a: got"):
+        impinge.Builder(parameters={"a": ends})
+
+
+def test_wrong_values_and_clocks_are_named():
+    with pytest.raises(impinge.SceneError, match="time"):
+        impinge.Builder(parameters={"time": (0, 1)})
+    with pytest.raises(impinge.UsageError, match="at: got 'b', must be a parameter: a, s"):
+        arm().at({"b": 1})
+    with pytest.raises(impinge.ImpingeError):
+        arm().at({"a": 9})
+    builder = impinge.Builder(parameters={"a": (0, 1)})
+    with pytest.raises(impinge.SceneError, match="clock"):
+        builder.body("ball").surface("sphere").map("rotate", rate=1, clock="b")
