@@ -199,6 +199,7 @@ core_survey = \
     core/survey/survey_answer.c \
     core/survey/survey_box.c \
     core/survey/survey_internal.h \
+    core/survey/survey_measure.c \
     core/survey/survey_pairs.c
 
 core_reader = \

@@ -21,6 +21,7 @@ typedef struct moved_instance {
 
 typedef struct posing_scene {
     const double *values;
+    size_t released;
     moved_instance *moved;
     size_t count, capacity;
 } posing_scene;
@@ -29,6 +30,7 @@ typedef struct posing_scene {
 static shared_instance *at_values(posing_scene *p, shared_instance *from)
 {
     if (from->inner == NULL) return from;
+    if (from->clock == p->released) return from->inner;
     for (size_t k = 0; k < p->count; ++k)
         if (p->moved[k].from == from) return p->moved[k].to;
     moved_instance *grown = array_reserve(p->moved, p->count, &p->capacity, sizeof *grown);
@@ -73,11 +75,12 @@ static imp_code add_body(posing_scene *p, const imp_scene *scene, size_t body, i
 }
 
 imp_code posed_scene_of_bodies(const imp_scene *scene, const double *values, const size_t *bodies,
-                               size_t count, imp_scene **made)
+                               size_t count, size_t released, imp_scene **made)
 {
-    posing_scene p = {.values = values};
+    posing_scene p = {.values = values, .released = released};
     imp_scene *to = scene_new();
     imp_code code = to != NULL ? IMP_SUCCESS : IMP_ERROR_MEMORY;
+    if (to != NULL) scene_set_store(to, scene_store(scene));
     for (size_t k = 0; k < count && code == IMP_SUCCESS; ++k)
         code = add_body(&p, scene, bodies[k], to);
     clear(&p);
@@ -116,7 +119,7 @@ FP_APART static imp_code scene_at(const imp_scene *scene, const double *values, 
     size_t *bodies = malloc((count + 1) * sizeof *bodies);
     if (bodies == NULL) return error_set_memory(error);
     for (size_t b = 0; b < count; ++b) bodies[b] = b;
-    code = posed_scene_of_bodies(scene, values, bodies, count, made);
+    code = posed_scene_of_bodies(scene, values, bodies, count, SIZE_MAX, made);
     free(bodies);
     if (code == IMP_SUCCESS) {
         code = scene_copy_relations(scene, *made);

@@ -12,9 +12,10 @@
  * once for all pieces. */
 
 /* Makes the scene of some bodies, in that order, at these values, one for each parameter. Settings
- * are those of `scene`; who ignores whom is left out. The caller frees *made.
- * IMP_ERROR_MEMORY, or IMP_SUCCESS. */
+ * are those of `scene`; who ignores whom is left out. What follows parameter number `released`
+ * follows time instead; SIZE_MAX: none. The caller frees *made. IMP_ERROR_MEMORY, or
+ * IMP_SUCCESS. */
 imp_code posed_scene_of_bodies(const imp_scene *scene, const double *values, const size_t *bodies,
-                               size_t count, imp_scene **made);
+                               size_t count, size_t released, imp_scene **made);
 
 #endif

@@ -130,6 +130,8 @@ imp_code scene_add_body(imp_scene *scene, const char *name)
 
 void scene_set_store(imp_scene *scene, arena_store *store) { scene->store = store; }
 
+arena_store *scene_store(const imp_scene *scene) { return scene->store; }
+
 void scene_set_solid(imp_scene *scene, size_t body, bool is_solid)
 {
     assert(body < scene->count);

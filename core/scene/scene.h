@@ -23,6 +23,7 @@ bool scene_has_solids(const imp_scene *scene); /* whether any body is */
 /* Sets where its trees take memory from and give it to; it must outlive the scene. At first, and if
  * NULL, that is the heap. */
 void scene_set_store(imp_scene *scene, arena_store *store);
+arena_store *scene_store(const imp_scene *scene);
 
 /* Takes over `s`, also when it fails. */
 imp_code scene_add_surface(imp_scene *scene, size_t body, surface *s);

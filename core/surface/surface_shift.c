@@ -56,8 +56,7 @@ static void add_unbounded(surface_extent *extent)
     extent->speed = INFINITY;
 }
 
-static imp_status add_piece(const surface *s, const stage_times *times, bool is_clocked,
-                            surface_extent *extent)
+static imp_status add_piece(const surface *s, const stage_times *times, surface_extent *extent)
 {
     double lo[3], hi[3], rate[3];
     imp_model model[3];
@@ -71,7 +70,7 @@ static imp_status add_piece(const surface *s, const stage_times *times, bool is_
         if (!(model[i].hi <= extent->hi[i])) extent->hi[i] = model[i].hi;
         rate[i] = model[i].rate[PARAMETER_T];
     }
-    const double speed = is_clocked ? length_upper(rate) : 0;
+    const double speed = rate[0] == 0 && rate[1] == 0 && rate[2] == 0 ? 0 : length_upper(rate);
     if (!(speed <= extent->speed)) extent->speed = speed;
     return status;
 }
@@ -91,8 +90,7 @@ imp_status surface_extent_find(const surface *s, const value_box *box, surface_e
     }
     const size_t pieces = surface_piece_count(own);
     for (size_t k = 0; k < (pieces > 0 ? pieces : 1) && status == IMP_STATUS_OK; ++k)
-        status =
-            add_piece(pieces > 0 ? surface_piece(own, k) : own, &times, p->inner != NULL, extent);
+        status = add_piece(pieces > 0 ? surface_piece(own, k) : own, &times, extent);
     surface_free(own);
     if (status != IMP_STATUS_UNBOUNDED) return status;
     add_unbounded(extent);
@@ -126,6 +124,7 @@ typedef struct step {
     double stretch;      /* >= |phi(x, t) - phi(y, t)| / |x - y| */
     double speed;        /* >= |phi(x, t) - phi(x, t')| / |t - t'| */
     bool is_rigid;
+    bool moves; /* some rate in t is not 0 */
 } step;
 
 /* >= |x| of a 3x3 matrix of non-negative rates, as a factor of lengths (Frobenius' norm).
@@ -165,6 +164,7 @@ static imp_status step_begin(const mapping *map, const value_box *box, const rea
     if (status != IMP_STATUS_OK) return status;
     to->is_rigid = IMP_OFFERS(to->map.type, rigid);
     to->speed = speed_of(&to->rates);
+    to->moves = to->rates.m[0][3] != 0 || to->rates.m[1][3] != 0 || to->rates.m[2][3] != 0;
     to->stretch = norm_upper(&to->rates);
     const double rigid = map_turns_exactly(&to->map) ? 1 : 1 + 2 * IMP_RIGID_SLACK;
     if (to->is_rigid && !(to->stretch <= rigid)) to->stretch = rigid;
@@ -242,9 +242,16 @@ static imp_status advance(const step *s, reach *r)
     return IMP_STATUS_OK;
 }
 
+/* Whether it exists at all times. */
+static bool is_timeless(const shared_instance *p)
+{
+    return p->lo[2] == -INFINITY && p->hi[2] == INFINITY;
+}
+
 static void set_unbounded(const value_box *box, double *shift, surface_image *image)
 {
     for (size_t k = 0; k < box->count; ++k) shift[k] = INFINITY;
+    image->follows_time = true;
     for (int i = 0; i < 3; ++i) image->lo[i] = -INFINITY, image->hi[i] = INFINITY;
 }
 
@@ -267,6 +274,8 @@ imp_status surface_shift_upper(const surface *s, const surface_extent *extent, s
     for (int i = 0; i < 3; ++i) r.lo[i] = extent->lo[i], r.hi[i] = extent->hi[i];
     ball_of_box(&r);
     for (size_t k = 0; k < box->count; ++k) shift[k] = 0;
+    image->follows_time =
+        s->origin->inner == NULL && (extent->speed != 0 || !is_timeless(s->origin));
     if (s->origin->inner != NULL)
         shift[s->origin->clock] =
             padded_upper(extent->speed * clock_reach_upper(s->origin, box), 8) + PRODUCTS_UNDERFLOW;
@@ -276,6 +285,7 @@ imp_status surface_shift_upper(const surface *s, const surface_extent *extent, s
         status = step_begin(&s->maps[j], box, &r, &to);
         if (status == IMP_STATUS_OK) status = advance(&to, &r);
         if (status != IMP_STATUS_OK) break;
+        if (p->inner == NULL && (to.moves || !is_timeless(p))) image->follows_time = true;
         for (size_t k = 0; k < box->count; ++k) {
             if (to.stretch != 1) shift[k] = padded_upper(shift[k] * to.stretch, 8);
             if (p->inner != NULL && p->clock == k)

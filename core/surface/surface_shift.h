@@ -22,7 +22,7 @@ typedef struct value_box {
 /* The surface before its maps, at all times and values of a box. */
 typedef struct surface_extent {
     double lo[3], hi[3]; /* infinite: it is not bounded */
-    double speed;        /* length per unit of its clock; 0: it follows time */
+    double speed;        /* length per unit of its clock, or of time if it follows that */
 } surface_extent;
 
 /* A status other than OK is a fault of the type. */
@@ -30,11 +30,12 @@ imp_status surface_extent_find(const surface *s, const value_box *box, surface_e
 
 /* Bounds, for the surface without its last `left_out` maps, shift[k] >= the length by which any
  * point of it moves for parameter k alone, from the values `at` to any in the box: together they
- * move it by the sum at most. `image` becomes a box that holds it at all times and values. The
- * extent is that of this box or of a larger one. INFINITY: no bound. A status other than OK is a
- * fault of a map. */
+ * move it by the sum at most. `image` becomes a box that holds it at all times and values, and
+ * whether it may depend on time. The extent is that of this box or of a larger one. INFINITY: no
+ * bound. A status other than OK is a fault of a map. */
 typedef struct surface_image {
     double lo[3], hi[3];
+    bool follows_time;
 } surface_image;
 imp_status surface_shift_upper(const surface *s, const surface_extent *extent, size_t left_out,
                                const value_box *box, double *shift, surface_image *image);

@@ -129,7 +129,8 @@ FP_APART static imp_code fill(imp_survey *s, imp_scene *scene, const imp_options
     if (code != IMP_SUCCESS) return code;
     set_aims(s);
     code = survey_find_pairs(s, error);
-    return code == IMP_SUCCESS ? survey_add_roots(s, error) : code;
+    if (code == IMP_SUCCESS) code = survey_add_roots(s, error);
+    return code == IMP_SUCCESS ? survey_choose_swept(s, error) : code;
 }
 
 imp_survey *imp_survey_new(imp_scene *scene, const imp_options *options,

@@ -110,7 +110,8 @@ imp_code imp_survey_get_clearance(const imp_survey *s, imp_clearance *answer, im
     if (!s->is_clearance) return refuse_kind("a contact: imp_survey_get_result", error);
     imp_clearance own = s->is_distance ? bracket_of(s) : decision_of(s);
     own.struct_size = (uint32_t)sizeof own;
-    own.reason = s->reason;
+    const bool is_decision = !s->is_distance && s->reason == IMP_REASON_NONE;
+    own.reason = is_decision ? IMP_REASON_DECIDED : s->reason;
     own.body[0] = s->how.body[0], own.body[1] = s->how.body[1];
     own.t_start = s->options.t_start, own.t_end = s->options.t_end;
     own.required = s->asked.required;

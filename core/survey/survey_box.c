@@ -11,92 +11,9 @@
 #include "core/scene/posed_scene.h"
 #include "core/survey/survey_internal.h"
 
-/* --- What the values of a box do -------------------------------------------------------------- */
-
-typedef struct box_view {
-    double *lo, *hi; /* s->ranges of the box, apart */
-    double total;    /* shift of all parameters and both bodies together; length */
-    double apart;    /* the boxes that hold the bodies are so far apart, at least; length */
-} box_view;
-
 static bool is_rest(const survey_pair *pair) { return pair->body[0] == SURVEY_ALL_BODIES; }
 
-static void join_image(surface_image *all, const surface_image *one)
-{
-    for (int i = 0; i < 3; ++i) {
-        if (!(one->lo[i] >= all->lo[i])) all->lo[i] = one->lo[i];
-        if (!(one->hi[i] <= all->hi[i])) all->hi[i] = one->hi[i];
-    }
-}
-
-/* A lower bound of the distance of points of two boxes: that along the axis where they are farthest
- * apart. */
-static double apart_lower(const surface_image *a, const surface_image *b)
-{
-    double most = 0;
-    for (int i = 0; i < 3; ++i) {
-        const double above = difference_lower(b->lo[i], a->hi[i]);
-        const double below = difference_lower(a->lo[i], b->hi[i]);
-        if (above > most) most = above;
-        if (below > most) most = below;
-    }
-    return most;
-}
-
-/* Adds what parameters shift one body of the pair by, at most: of its surfaces the one that moves
- * most. s->shift[2] is scratch. */
-static imp_code measure_body(imp_survey *s, const survey_pair *pair, int side,
-                             const value_box *values, surface_image *all, imp_error *error)
-{
-    const size_t body = pair->body[side];
-    double *most = s->shift[side], *one = s->shift[2];
-    for (size_t j = 0; j < s->count; ++j) most[j] = 0;
-    for (int i = 0; i < 3; ++i) all->lo[i] = INFINITY, all->hi[i] = -INFINITY;
-    for (size_t k = 0; k < scene_surface_count(s->scene, body); ++k) {
-        const surface *of = scene_surface(s->scene, body, k);
-        surface_image image;
-        const imp_status status = surface_shift_upper(of, &s->extents[s->first[body] + k],
-                                                      pair->left_out, values, one, &image);
-        if (status != IMP_STATUS_OK) {
-            surface_fault(of, error, ": %s", surface_status_told(of, status).text);
-            return surface_set_code(status, error);
-        }
-        join_image(all, &image);
-        for (size_t j = 0; j < s->count; ++j)
-            if (!(one[j] <= most[j])) most[j] = one[j];
-    }
-    return IMP_SUCCESS;
-}
-
-/* Measures a box over a part of time. s->at becomes its middle, s->shift[0][k] what parameter k
- * shifts both bodies by. A sum of two numbers, and of at most SCENE_PARAMETERS_MAX. */
-PAD_COVERS(64, 1 + SCENE_PARAMETERS_MAX);
-static imp_code measure(imp_survey *s, const survey_box *box, double t_start, double t_end,
-                        box_view *view, imp_error *error)
-{
-    const survey_pair *pair = &s->pairs[box->pair];
-    double *lo = s->at + s->count, *hi = lo + s->count; /* behind the middle */
-    surface_image image[2];
-    for (size_t j = 0; j < s->count; ++j) {
-        lo[j] = box->range[2 * j], hi[j] = box->range[2 * j + 1];
-        s->at[j] = scene_parameter_middle(lo[j], hi[j]);
-        s->shift[0][j] = 0;
-    }
-    *view = (box_view){.lo = lo, .hi = hi};
-    if (is_rest(pair)) return IMP_SUCCESS;
-    const value_box values = {s->count, lo, hi, s->at, t_start, t_end};
-    for (int side = 0; side < 2; ++side) {
-        const imp_code code = measure_body(s, pair, side, &values, &image[side], error);
-        if (code != IMP_SUCCESS) return code;
-    }
-    for (size_t j = 0; j < s->count; ++j) {
-        s->shift[0][j] += s->shift[1][j];
-        view->total += s->shift[0][j];
-    }
-    view->total = padded_upper(view->total, 64);
-    view->apart = apart_lower(&image[0], &image[1]);
-    return IMP_SUCCESS;
-}
+static bool is_swept(const survey_pair *pair) { return pair->swept != SIZE_MAX; }
 
 /* --- Scenes and queries at the middle --------------------------------------------------------- */
 
@@ -121,13 +38,13 @@ static imp_code scene_of_box(imp_survey *s, const survey_box *box, imp_scene **m
     size_t *all = NULL;
     imp_code code;
     if (!is_rest(pair)) {
-        code = posed_scene_of_bodies(s->scene, s->at, pair->body, 2, made);
+        code = posed_scene_of_bodies(s->scene, s->at, pair->body, 2, pair->swept, made);
         return code == IMP_SUCCESS ? code : error_set_memory(error);
     }
     all = malloc((count + 1) * sizeof *all);
     if (all == NULL) return error_set_memory(error);
     for (size_t b = 0; b < count; ++b) all[b] = b;
-    code = posed_scene_of_bodies(s->scene, s->at, all, count, made);
+    code = posed_scene_of_bodies(s->scene, s->at, all, count, SIZE_MAX, made);
     free(all);
     if (code == IMP_SUCCESS && ignore_moved(s, *made) != IMP_SUCCESS) {
         imp_scene_free(*made);
@@ -156,8 +73,8 @@ static bool report(void *context, const imp_progress *of_query)
     if (s->is_distance) {
         all.lower = first != NULL && first->key < s->settled ? first->key : s->settled;
         all.upper = s->best.distance;
-    } else if (first != NULL && first->key < all.t_lower) {
-        all.t_lower = first->key;
+    } else {
+        all.t_lower = first != NULL && first->key < s->key_asked ? first->key : s->key_asked;
     }
     if (s->options.progress == NULL || all.seconds < s->next_report) return true;
     s->next_report = all.seconds + PROGRESS_EVERY;
@@ -189,6 +106,20 @@ static void add_stats(imp_survey *s, const imp_stats *of_query)
     if (of_query->bytes + own > s->stats.bytes) s->stats.bytes = of_query->bytes + own;
 }
 
+/* The times of the queries of a box: what is left of the parameter that is swept, or of time. */
+typedef struct query_times {
+    double start, end;
+} query_times;
+
+static query_times times_of(const imp_survey *s, const survey_box *box)
+{
+    const size_t swept = s->pairs[box->pair].swept;
+    const double t_end = s->best.t < s->options.t_end ? s->best.t : s->options.t_end;
+    if (swept != SIZE_MAX) return (query_times){box->range[2 * swept], box->range[2 * swept + 1]};
+    if (s->is_distance) return (query_times){s->options.t_start, s->options.t_end};
+    return (query_times){box->key, t_end};
+}
+
 static bool is_limit(imp_reason reason)
 {
     return reason == IMP_REASON_PAIRS || reason == IMP_REASON_SECONDS ||
@@ -204,10 +135,10 @@ static bool must_end(imp_survey *s, imp_reason reason)
     return true;
 }
 
-static imp_code run_contact(imp_survey *s, imp_scene *scene, double t_start, double t_end,
+static imp_code run_contact(imp_survey *s, imp_scene *scene, query_times times,
                             const double gamma[2], imp_result *result, imp_error *error)
 {
-    imp_options options = options_of_query(s, t_start, t_end);
+    imp_options options = options_of_query(s, times.start, times.end);
     options.gamma = gamma[0];
     options.gamma_clear = gamma[1];
     *result = (imp_result){.struct_size = (uint32_t)sizeof *result};
@@ -220,10 +151,10 @@ static imp_code run_contact(imp_survey *s, imp_scene *scene, double t_start, dou
     return code;
 }
 
-static imp_code run_distance(imp_survey *s, imp_scene *scene, double within, double tolerance,
-                             imp_clearance *answer, imp_error *error)
+static imp_code run_distance(imp_survey *s, imp_scene *scene, query_times times, double within,
+                             double tolerance, imp_clearance *answer, imp_error *error)
 {
-    const imp_options options = options_of_query(s, s->options.t_start, s->options.t_end);
+    const imp_options options = options_of_query(s, times.start, times.end);
     imp_clearance_options asked = imp_clearance_options_default();
     asked.within = within;
     asked.tolerance = tolerance;
@@ -258,11 +189,28 @@ void survey_tell(const imp_survey *s, const survey_box *box, double t_start, dou
     s->how.sink(s->how.sink_context, &told);
 }
 
-/* Notes that nothing comes near in the box up to a time. */
+/* Notes that nothing comes near in the box before t, of the parameter that is swept. */
+static void prove_swept(imp_survey *s, survey_box *box, double t)
+{
+    double *range = box->range + 2 * s->pairs[box->pair].swept;
+    const double lo = range[0], hi = range[1];
+    const double part = t < hi ? box->share * ((t - lo) / (hi - lo)) : box->share;
+    s->proved += part;
+    box->share -= part;
+    range[1] = t;
+    survey_tell(s, box, s->options.t_start, s->options.t_end, IMP_VERDICT_CLEAR, s->gamma_clear);
+    range[0] = t, range[1] = hi;
+}
+
+/* Notes that nothing comes near in the box before a time of its queries. */
 static void prove_until(imp_survey *s, survey_box *box, double t, bool is_clear)
 {
     const double all = s->options.t_end - s->options.t_start;
-    if (!(t > box->key) && !is_clear) return;
+    if (!(t > times_of(s, box).start) && !is_clear) return;
+    if (is_swept(&s->pairs[box->pair])) {
+        prove_swept(s, box, t);
+        return;
+    }
     s->proved += all > 0 ? box->share * ((t - box->key) / all) : box->share;
     survey_tell(s, box, box->key, t, IMP_VERDICT_CLEAR, s->gamma_clear);
     box->key = t;
@@ -270,7 +218,7 @@ static void prove_until(imp_survey *s, survey_box *box, double t, bool is_clear)
 
 /* Chooses the parameter that shifts most; where several have no bound, the one whose range is
  * widest beside that of the scene. Returns s->count if no range can be halved. */
-static size_t choose_split(const imp_survey *s, const box_view *view)
+static size_t choose_split(const imp_survey *s, const survey_view *view)
 {
     size_t best = s->count;
     double most = 0, widest = 0;
@@ -287,7 +235,7 @@ static size_t choose_split(const imp_survey *s, const box_view *view)
 }
 
 /* Queues the halves of the box, which share the middle. *done false: it cannot be halved. */
-static imp_code split(imp_survey *s, const survey_box *box, const box_view *view, bool *done,
+static imp_code split(imp_survey *s, const survey_box *box, const survey_view *view, bool *done,
                       imp_error *error)
 {
     const size_t j = choose_split(s, view), size = sizeof *box + 2 * s->count * sizeof *box->range;
@@ -302,6 +250,15 @@ static imp_code split(imp_survey *s, const survey_box *box, const box_view *view
         if (!box_queue_push(&s->queue, half)) return error_set_memory(error);
     }
     return IMP_SUCCESS;
+}
+
+/* Measures the box over the times in question: for a contact, those that are left. */
+static imp_code measure(imp_survey *s, const survey_box *box, survey_view *view, imp_error *error)
+{
+    const survey_pair *pair = &s->pairs[box->pair];
+    const query_times all = {s->options.t_start, s->options.t_end};
+    const query_times times = is_swept(pair) ? all : times_of(s, box);
+    return survey_measure(s, box, pair->left_out, times.start, times.end, view, error);
 }
 
 /* What is left of a box that was asked about. */
@@ -320,28 +277,39 @@ static void in_scene(const survey_pair *pair, imp_side *a, imp_side *b)
     b->body = pair->body[b->body];
 }
 
+/* Keeps the values of a witness at a time of its query, and replaces that by the scene's time. */
+static void keep_values(imp_survey *s, const survey_box *box, double *t)
+{
+    const survey_pair *pair = &s->pairs[box->pair];
+    memcpy(s->best.values, s->at, s->count * sizeof *s->at);
+    s->best.is_known = true;
+    if (!is_swept(pair)) return;
+    s->best.values[pair->swept] = *t;
+    *t = s->options.t_start;
+}
+
 static void note_contact(imp_survey *s, const survey_box *box, const imp_result *found)
 {
-    if (!(found->t < s->best.t)) return;
-    s->best.is_known = true;
-    s->best.t = found->t;
+    const double t = is_swept(&s->pairs[box->pair]) ? s->options.t_start : found->t;
+    if (!(t < s->best.t)) return;
+    s->best.t = t;
     s->best.contact = *found;
+    keep_values(s, box, &s->best.contact.t);
     in_scene(&s->pairs[box->pair], &s->best.contact.a, &s->best.contact.b);
-    memcpy(s->best.values, s->at, s->count * sizeof *s->at);
     if (s->how.any) s->reason = IMP_REASON_NONE;
 }
 
 /* Asks the query with room for the shift, then, where a contact is too coarse to be one of the
  * scene, the query without: its contact bounds the earliest from above. */
 static imp_code ask_queries(imp_survey *s, survey_box *box, imp_scene *scene, double total,
-                            double t_end, box_rest *rest, imp_error *error)
+                            box_rest *rest, imp_error *error)
 {
     const double between = s->gamma - s->gamma_clear, own[2] = {s->gamma, s->gamma_clear};
     const bool is_fine = total <= 0.5 * between;
     const double clear = total > 0 ? sum_upper(s->gamma_clear, total) : s->gamma_clear;
     const double coarse[2] = {is_fine ? s->gamma : clear + 0.25 * (total + between), clear};
     imp_result found;
-    imp_code code = run_contact(s, scene, box->key, t_end, coarse, &found, error);
+    imp_code code = run_contact(s, scene, times_of(s, box), coarse, &found, error);
     if (code != IMP_SUCCESS) return code;
     prove_until(s, box, found.t_lower, found.verdict == IMP_VERDICT_CLEAR);
     if (found.verdict == IMP_VERDICT_CLEAR) return *rest = BOX_DONE, IMP_SUCCESS;
@@ -350,7 +318,7 @@ static imp_code ask_queries(imp_survey *s, survey_box *box, imp_scene *scene, do
         if (is_stuck) s->reason = IMP_REASON_RESOLUTION;
         if (is_stuck || must_end(s, found.reason)) return *rest = BOX_WAITING, IMP_SUCCESS;
     }
-    if (!is_fine) code = run_contact(s, scene, box->key, t_end, own, &found, error);
+    if (!is_fine) code = run_contact(s, scene, times_of(s, box), own, &found, error);
     if (code != IMP_SUCCESS) return code;
     if (found.verdict == IMP_VERDICT_CONTACT) note_contact(s, box, &found);
     if (found.verdict == IMP_VERDICT_UNDECIDED && must_end(s, found.reason)) *rest = BOX_WAITING;
@@ -359,20 +327,19 @@ static imp_code ask_queries(imp_survey *s, survey_box *box, imp_scene *scene, do
 
 static imp_code ask_contact(imp_survey *s, survey_box *box, box_rest *rest, imp_error *error)
 {
-    const double t_end = s->best.t < s->options.t_end ? s->best.t : s->options.t_end;
-    box_view view;
+    survey_view view;
     imp_scene *scene;
     bool is_split;
-    imp_code code = measure(s, box, box->key, t_end, &view, error);
+    imp_code code = measure(s, box, &view, error);
     if (code != IMP_SUCCESS) return code;
     if (view.apart > s->gamma_clear) {
-        prove_until(s, box, t_end, true);
+        prove_until(s, box, times_of(s, box).end, true);
         return *rest = BOX_DONE, IMP_SUCCESS;
     }
     if (view.total < INFINITY) {
         code = scene_of_box(s, box, &scene, error);
         if (code != IMP_SUCCESS) return code;
-        code = ask_queries(s, box, scene, view.total, t_end, rest, error);
+        code = ask_queries(s, box, scene, view.total, rest, error);
         imp_scene_free(scene);
         if (code != IMP_SUCCESS || *rest != BOX_OPEN) return code;
     }
@@ -400,11 +367,10 @@ double survey_distance_enough(const imp_survey *s)
 static void note_nearest(imp_survey *s, const survey_box *box, const imp_clearance *found)
 {
     if (!found->has_witness || !(found->upper < s->best.distance)) return;
-    s->best.is_known = true;
     s->best.distance = found->upper;
     s->best.nearest = *found;
+    keep_values(s, box, &s->best.nearest.t);
     in_scene(&s->pairs[box->pair], &s->best.nearest.a, &s->best.nearest.b);
-    memcpy(s->best.values, s->at, s->count * sizeof *s->at);
 }
 
 /* Closes a box, whose distance is enough or cannot be known better. */
@@ -421,7 +387,7 @@ static double tolerance_of(const imp_survey *s, double total)
     const double own = 0.5 * s->asked.tolerance, least = own > 1e-9 ? own : 1e-9, most = 0.25;
     if (!(total > 0)) return least;
     const double wanted =
-        s->best.distance < INFINITY ? 0.25 * total / (s->best.distance + total) : most;
+        s->best.distance < INFINITY ? 0.5 * total / (s->best.distance + total) : most;
     return wanted > least ? wanted : least;
 }
 
@@ -434,7 +400,7 @@ static imp_code measure_distance(imp_survey *s, survey_box *box, double total, b
     imp_clearance found;
     imp_code code = scene_of_box(s, box, &scene, error);
     if (code != IMP_SUCCESS) return code;
-    code = run_distance(s, scene, within, tolerance_of(s, total), &found, error);
+    code = run_distance(s, scene, times_of(s, box), within, tolerance_of(s, total), &found, error);
     imp_scene_free(scene);
     if (code != IMP_SUCCESS) return code;
     const double lower = total > 0 ? difference_lower(found.lower, total) : found.lower;
@@ -446,9 +412,9 @@ static imp_code measure_distance(imp_survey *s, survey_box *box, double total, b
 
 static imp_code ask_distance(imp_survey *s, survey_box *box, box_rest *rest, imp_error *error)
 {
-    box_view view;
+    survey_view view;
     bool is_split = false;
-    imp_code code = measure(s, box, s->options.t_start, s->options.t_end, &view, error);
+    imp_code code = measure(s, box, &view, error);
     if (code != IMP_SUCCESS) return code;
     if (view.apart > box->key) box->key = view.apart;
     if (view.total < INFINITY && !(box->key >= survey_distance_enough(s)))
@@ -463,6 +429,7 @@ imp_code survey_ask(imp_survey *s, survey_box *box, imp_error *error)
 {
     box_rest rest = BOX_OPEN;
     s->boxes += 1;
+    s->key_asked = s->is_distance ? s->options.t_start : box->key;
     const imp_code code =
         s->is_distance ? ask_distance(s, box, &rest, error) : ask_contact(s, box, &rest, error);
     if (code != IMP_SUCCESS || rest != BOX_WAITING) return free(box), code;

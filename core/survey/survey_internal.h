@@ -30,6 +30,10 @@
  * shifts go to 0 with the boxes, and where the shift is at most half of gamma - gamma_clear a
  * contact of the query at c is one of the scene.
  *
+ * Where nothing of two bodies depends on time, the queries' time is the parameter that shifts most:
+ * what follows it follows time, so that one query covers its whole range, by bounds that are better
+ * than those of the lemma; the shift is that of the others. A contact is one at all times then.
+ *
  * survey.c steps, survey_box.c decides one box, survey_pairs.c finds which bodies which parameters
  * move, survey_answer.c reads. */
 
@@ -40,6 +44,7 @@
 typedef struct survey_pair {
     size_t body[2];
     size_t left_out; /* last maps that both share */
+    size_t swept;    /* the parameter that queries take for their time; SIZE_MAX: none */
 } survey_pair;
 
 /* The contact, or the nearest points, known. */
@@ -70,6 +75,7 @@ struct imp_survey {
     size_t pair_count, pair_capacity;
     box_queue queue;
     uint64_t made, boxes;
+    double key_asked; /* of the box being asked about */
     survey_incumbent best;
     double settled; /* least distance proved of boxes that are done with; length */
     double proved;  /* shares of all pairs together */
@@ -83,6 +89,20 @@ struct imp_survey {
 
 /* Finds the pairs, and how large surfaces are before their maps. */
 imp_code survey_find_pairs(imp_survey *s, imp_error *error);
+
+/* Chooses the parameter that is swept for each pair. */
+imp_code survey_choose_swept(imp_survey *s, imp_error *error);
+
+/* Bounds what the values of a box shift the bodies of its pair by. s->at becomes the box's middle,
+ * with the ranges behind it. */
+typedef struct survey_view {
+    const double *lo, *hi; /* ranges of the parameters */
+    double total;          /* shift of all parameters and both bodies together; length */
+    double apart;          /* the bodies are so far apart, at least; length */
+    bool follows_time;
+} survey_view;
+imp_code survey_measure(imp_survey *s, const survey_box *box, size_t left_out, double t_start,
+                        double t_end, survey_view *view, imp_error *error);
 
 /* Adds the first box of each pair. */
 imp_code survey_add_roots(imp_survey *s, imp_error *error);

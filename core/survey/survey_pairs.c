@@ -64,7 +64,7 @@ static imp_code collect_pairs(imp_survey *s, imp_error *error)
     imp_code code = IMP_SUCCESS;
     for (size_t a = 0; a < bodies; ++a)
         for (size_t b = a + 1; b < bodies && code == IMP_SUCCESS; ++b) {
-            survey_pair pair = {.body = {a, b}};
+            survey_pair pair = {.body = {a, b}, .swept = SIZE_MAX};
             if (scene_surface_count(s->scene, a) == 0 || scene_surface_count(s->scene, b) == 0)
                 continue;
             if (!is_asked(s, a, b)) continue;
@@ -76,7 +76,8 @@ static imp_code collect_pairs(imp_survey *s, imp_error *error)
                 any_rests = true;
         }
     if (code == IMP_SUCCESS && (any_rests || s->pair_count == 0)) {
-        const survey_pair rest = {.body = {SURVEY_ALL_BODIES, SURVEY_ALL_BODIES}};
+        const survey_pair rest = {.body = {SURVEY_ALL_BODIES, SURVEY_ALL_BODIES},
+                                  .swept = SIZE_MAX};
         code = add_pair(s, rest, error);
     }
     return code;
@@ -128,6 +129,28 @@ imp_code survey_add_roots(imp_survey *s, imp_error *error)
             box->range[2 * j + 1] = s->hi[j];
         }
         if (!box_queue_push(&s->queue, box)) return error_set_memory(error);
+    }
+    return IMP_SUCCESS;
+}
+
+/* The last maps that both share count here, since queries apply them. */
+imp_code survey_choose_swept(imp_survey *s, imp_error *error)
+{
+    for (size_t k = 0; k < s->queue.count; ++k) {
+        const survey_box *box = s->queue.at[k];
+        survey_pair *pair = &s->pairs[box->pair];
+        survey_view view;
+        if (pair->body[0] == SURVEY_ALL_BODIES) continue;
+        imp_code code =
+            survey_measure(s, box, 0, s->options.t_start, s->options.t_end, &view, error);
+        if (code != IMP_SUCCESS) return code;
+        if (view.follows_time) continue;
+        code = survey_measure(s, box, pair->left_out, s->options.t_start, s->options.t_end, &view,
+                              error);
+        if (code != IMP_SUCCESS) return code;
+        double most = 0;
+        for (size_t j = 0; j < s->count; ++j)
+            if (s->shift[0][j] > most) most = s->shift[0][j], pair->swept = j;
     }
     return IMP_SUCCESS;
 }
