@@ -7,13 +7,15 @@ import json
 
 import numpy
 import pytest
-from impinge import errors, robot
+from impinge import errors as errors_module
+from impinge import robot
 from impinge.robot import __main__ as command
 
 from support import SOURCE
 
 ARM = SOURCE / "tools" / "data" / "arm.urdf"
 SRDF = SOURCE / "tools" / "data" / "arm.srdf"
+SHELF = SOURCE / "tools" / "data" / "arm_shelf.yaml"
 
 
 @pytest.fixture(scope="module")
@@ -100,7 +102,7 @@ def test_a_joint_without_limits_is_told(tmp_path):
 
 
 def test_unknown_links_are_refused(arm):
-    with pytest.raises(errors.UsageError, match="link: got 'uper', must be one of base"):
+    with pytest.raises(errors_module.UsageError, match="link: got 'uper', must be one of base"):
         arm.check_pair("base", "uper")
 
 
@@ -134,3 +136,50 @@ def test_the_command_prints_one_object(capsys):
 def test_what_does_not_go_together_is_refused(capsys, words, text):
     status, said = ask(capsys, *words)
     assert status == 2 and text in said.err
+
+
+# --- Motions that are not exact -------------------------------------------------------------------
+
+
+def edge(arm, goal, **more):
+    return arm.scene([0, 1], {"lift": [-1, goal], "turn": [0, 0.5]}, world=SHELF, **more)
+
+
+def test_errors_of_joints_are_parameters(arm):
+    scene = edge(arm, -0.4, errors=(0.01, 0.002))
+    assert scene.parameters == {"turn.error": (-0.01, 0.01), "lift.error": (-0.01, 0.01),
+                                "bend.error": (-0.01, 0.01), "extend.error": (-0.002, 0.002),
+                                "grip.error": (-0.002, 0.002)}
+    assert edge(arm, -0.4, errors=(0, 0.002)).parameters.keys() == {"extend.error", "grip.error"}
+    exact = scene.at({}).mesh("right_finger", 0.5).points
+    off = scene.at({"lift.error": 0.01}).mesh("right_finger", 0.5).points
+    other = arm.scene([0, 1], {"lift": [-0.99, -0.39], "turn": [0, 0.5]}).mesh("right_finger", 0.5).points
+    assert numpy.abs(off - other).max() < 1e-12 and numpy.abs(off - exact).max() > 1e-4
+
+
+def test_a_distance_that_is_kept_by_all_motions_is_kept_by_each(arm):
+    scene, random = edge(arm, -0.1, errors=(0.02, 0.001)), numpy.random.default_rng(3)
+    found = scene.clearance(tolerance=0.5, max_seconds=2)
+    for _ in range(6):
+        one = scene.at({name: random.uniform(lo, hi) for name, (lo, hi) in scene.parameters.items()})
+        assert one.clearance(tolerance=0.1).upper >= found.lower
+
+
+@pytest.mark.parametrize("errors", [(-1, 0), (0.1,), "wide", (0, numpy.inf)])
+def test_wrong_errors_are_named(arm, errors):
+    with pytest.raises(errors_module.UsageError, match="errors: got"):
+        edge(arm, 0, errors=errors)
+
+
+def test_the_command_answers_for_every_motion_within_errors(capsys):
+    motion = ["--srdf", str(SRDF), "--start", "lift=-1", "--world", str(SHELF), "--robust", "0.01745,0.0005"]
+    status, said = ask(capsys, *motion, "--goal", "lift=-0.4,turn=0.5")
+    assert status == 0 and said.out == (
+        "holds: nothing comes within 0.001 mm from t = 0 to 1, proved, with joints off by up to 0.01745 rad or "
+        "0.5 mm and each body by up to 0.5 mm\n")
+    status, said = ask(capsys, *motion, "--goal", "lift=1,turn=0.5", "--require", "0.002", "--json")
+    made = json.loads(said.out)
+    assert status == 1 and made["verdict"] == "violated" and made["required"] == 0.003
+    assert made["robust"] == {"angle": 0.01745, "length": 0.0005} and "lift.error" in made["parameters"]
+    status, said = ask(capsys, "--goal", "lift=1", "--robust", "1")
+    assert status == 2 and "--robust: got 1, must be ANGLE,LENGTH" in said.err

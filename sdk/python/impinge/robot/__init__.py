@@ -17,11 +17,11 @@ from typing import Any, Dict, Iterable, List, Mapping, Optional, Sequence, Set, 
 
 from .. import _document as document
 from .. import _values as values
-from .._assembly import scene_of, share
+from .._assembly import Stage, scene_of, share
 from ..errors import SceneError, UsageError
 from ..scene import Scene
 from ._check import Limits, LinkPair, Links, check_pair
-from ._course import Course, maps_of_joint
+from ._course import Course, Following, maps_of_hinge, maps_of_joint
 from ._moveit import Matrix, World, read_world
 from ._positions import Positions, Variables
 from ._shapes import Pose, pose_of, surface_at
@@ -63,7 +63,8 @@ class Robot:
 
     def scene(self, times: Any, positions: Positions, *, velocities: Optional[Positions] = None,
               accelerations: Optional[Positions] = None, interpolation: str = "splines",
-              world: Optional[AnyWorld] = None, allowed: Optional[Pairs] = None) -> Scene:
+              world: Optional[AnyWorld] = None, allowed: Optional[Pairs] = None,
+              errors: Optional[Tuple[float, float]] = None) -> Scene:
         """The motion through `positions` at `times` (two or more, increasing): rows of one number for each
         of `variables`, or a dict from names to columns (or one number, for what rests); what is not named
         stays at 0, or at the nearest limit. "splines" is what joint_trajectory_controller does by default:
@@ -73,11 +74,16 @@ class Robot:
         `world` is the path of a planning scene, what `world` made of one, or bodies as of scene files, each
         with a name; one whose "parent" is a link moves with it. Others are not tested with each other. Links
         that a joint connects are never tested with each other; nor are the pairs `allowed`, which are those
-        of the planning scene's matrix if it has one, else those that the SRDF file disables."""
+        of the planning scene's matrix if it has one, else those that the SRDF file disables.
+
+        With `errors`, an angle and a length, each joint that turns may be off by that angle either way at all
+        times, and each that slides by that length: the scene's parameters are these errors, "JOINT.error", so
+        that `solve` and `clearance` answer for all of them at once."""
         self._share()
         around = self._around(world)
+        ranges = {} if errors is None else self._errors(errors)
         courses = self._variables.courses(times, positions, velocities, accelerations, interpolation)
-        bodies: List[Mapping[str, Any]] = [self._body(link, courses) for link in self.links]
+        bodies: List[Mapping[str, Any]] = [self._body(link, courses, ranges) for link in self.links]
         group = self._free_name(around)
         for body in around.bodies:
             bodies.append(self._attached(body) if "parent" in body else {**body, "group": [group]})
@@ -85,6 +91,8 @@ class Robot:
         ignored = self._joined | self._allowed(around, allowed) | set(around.touching)
         made: document.Document = {"time": [float(at[0]), float(at[-1])], "bodies": bodies,
                                    "ignore": [list(pair) for pair in sorted(ignored)]}
+        if ranges:
+            made["parameters"] = {name: list(ends) for name, ends in ranges.items()}
         if any("parent" not in body for body in around.bodies):
             made["ignore"].append([group, group])
         return scene_of(made, self.name or "robot")
@@ -173,11 +181,35 @@ class Robot:
             frames[joint.child] = pose_of(joint.origin).then(frames[joint.parent])
         return frames
 
-    def _body(self, link: str, courses: Mapping[str, Course]) -> Dict[str, Any]:
+    def _errors(self, errors: Tuple[float, float]) -> Dict[str, Tuple[float, float]]:
+        """The ranges of the errors of joints that move by themselves."""
+        sizes = values.array("errors", errors)
+        if sizes.shape != (2,) or not ((sizes >= 0) & (sizes < float("inf"))).all():
+            raise values.refuse("errors", errors, "an angle and a length, neither negative")
+        ranges: Dict[str, Tuple[float, float]] = {}
+        for joint in self.joints:
+            if joint.kind in ("planar", "floating"):
+                raise UsageError(f"errors: joint {joint.name!r} is {joint.kind}; they are known of joints that turn "
+                                 "or slide")
+            size = float(sizes[1 if joint.kind == "prismatic" else 0])
+            if size > 0:
+                ranges[f"{joint.name}.error"] = (-size, size)
+        return ranges
+
+    def _error_maps(self, joint: Joint, ranges: Mapping[str, Tuple[float, float]]) -> List[Stage]:
+        """The map by which a joint is off; one that follows another is off as that is."""
+        name = f"{joint.mimic or joint.name}.error"
+        if name not in ranges:
+            return []
+        factor = 1.0 if joint.mimic is None else joint.factor
+        return maps_of_hinge(joint, self._frames[joint.child], Following(name, factor))
+
+    def _body(self, link: str, courses: Mapping[str, Course],
+              ranges: Mapping[str, Tuple[float, float]]) -> Dict[str, Any]:
         body: Dict[str, Any] = {"name": link, "surfaces": self._surfaces[link]}
         joint = self._joint_of.get(link)
         if joint is not None:
-            maps = maps_of_joint(joint, self._frames[link], courses)
+            maps = [*maps_of_joint(joint, self._frames[link], courses), *self._error_maps(joint, ranges)]
             body["parent"] = joint.parent
             if maps:
                 body["maps"] = maps

@@ -6,9 +6,10 @@
 import argparse
 import json
 import sys
-from typing import Any, Dict, List, NoReturn, Optional
+from typing import Any, Dict, List, NoReturn, Optional, Tuple
 
 from ..errors import ImpingeError, PluginError, UsageError
+from ..scene import Scene
 from . import Robot, load
 from ._course import Table, read_table
 from ._matrix_report import as_json as matrix_json
@@ -29,6 +30,16 @@ def _positive(text: str) -> float:
     if not 0 < value < float("inf"):
         raise argparse.ArgumentTypeError(f"got {text}, must be a number > 0")
     return value
+
+
+def _errors(text: str) -> Tuple[float, float]:
+    try:
+        angle, length = (float(word) for word in text.split(","))
+    except ValueError:
+        raise argparse.ArgumentTypeError(f"got {text}, must be ANGLE,LENGTH, such as 0.01745,0.0005") from None
+    if not (0 <= angle < float("inf") and 0 <= length < float("inf") and angle + length > 0):
+        raise argparse.ArgumentTypeError(f"got {text}, must be an angle and a length, neither negative")
+    return angle, length
 
 
 def _count(text: str) -> int:
@@ -67,6 +78,9 @@ def _parser() -> argparse.ArgumentParser:
     parser.add_argument("--all", action="store_true", help="with --check-matrix: all pairs of links, and which of them "
                                                            "could be disabled")
     parser.add_argument("--require", type=_positive, metavar="DISTANCE", help="is this distance kept?")
+    parser.add_argument("--robust", type=_errors, metavar="ANGLE,LENGTH",
+                        help="answer for every motion near this one: each joint off by up to the angle, or if it "
+                             "slides the length, and each body off by up to the length in any direction")
     parser.add_argument("--gamma", type=_positive, help="what is no farther apart touches (1e-6)")
     parser.add_argument("--max-seconds", type=_positive, metavar="S", help="end as undecided")
     parser.add_argument("--compare-samples", type=_count, metavar="N", help="tell what N single poses show and miss")
@@ -169,7 +183,9 @@ def _answer(asked: argparse.Namespace) -> Answer:
     table = _table(robot, asked, notes)
     scene = robot.scene(table.times, table.positions, velocities=table.velocities or None,
                         accelerations=table.accelerations or None, interpolation=asked.interpolation,
-                        world=asked.world)
+                        world=asked.world, errors=asked.robust)
+    if asked.robust is not None:
+        return _robust_answer(scene, asked, notes)
     limits: Dict[str, Any] = {"gamma": asked.gamma, "max_seconds": asked.max_seconds}
     clearance = contact = samples = None
     if asked.require is not None:
@@ -182,6 +198,17 @@ def _answer(asked: argparse.Namespace) -> Answer:
     if asked.view is not None:
         scene.view(asked.view, gamma=asked.gamma, max_seconds=asked.max_seconds)
     return Answer(contact, clearance, samples, notes)
+
+
+def _robust_answer(scene: Scene, asked: argparse.Namespace, notes: List[str]) -> Answer:
+    """The errors of joints are parameters of the scene. Two bodies that are each off by up to a length come
+    nearer by no more than twice that, and may do so: that is required in addition."""
+    for name in ("compare_samples", "view"):
+        if getattr(asked, name) is not None:
+            raise UsageError(f"--{name.replace('_', '-')}: is of no use with --robust, which asks about many motions")
+    kept = asked.require if asked.require is not None else asked.gamma if asked.gamma is not None else 1e-6
+    found = scene.clearance(required=kept + 2 * asked.robust[1], gamma=asked.gamma, max_seconds=asked.max_seconds)
+    return Answer(None, found, None, notes, asked.robust)
 
 
 def _check_matrix(asked: argparse.Namespace) -> int:
@@ -201,7 +228,7 @@ def _check_matrix(asked: argparse.Namespace) -> int:
 
 
 def _refuse_beside_matrix(asked: argparse.Namespace) -> None:
-    for name in ("trajectory", "request", "start", "goal", "world", "require", "compare_samples", "view"):
+    for name in ("trajectory", "request", "start", "goal", "world", "require", "compare_samples", "view", "robust"):
         if getattr(asked, name) is not None:
             raise UsageError(f"--{name.replace('_', '-')}: is of no use with --check-matrix, which asks about all "
                              "positions of the joints")

@@ -32,6 +32,7 @@ class Answer(NamedTuple):
     clearance: Optional[Clearance]
     samples: Optional[Samples]
     notes: List[str]  # what was left out of the input
+    robust: Optional[Tuple[float, float]] = None  # how far joints, and bodies, may be off: an angle, a length
 
     @property
     def verdict(self) -> str:
@@ -108,6 +109,9 @@ def as_json(answer: Answer) -> Dict[str, Any]:
         made["samples"] = answer.samples._asdict()
     if answer.notes:
         made["notes"] = answer.notes
+    if answer.robust is not None and answer.clearance is not None:
+        made["robust"] = {"angle": answer.robust[0], "length": answer.robust[1]}
+        made.update(parameters=answer.clearance.parameters, proved=answer.clearance.proved)
     plain: Dict[str, Any] = _plain({**made, "text": as_text(answer)})
     return plain
 
@@ -140,9 +144,21 @@ def _contact_words(found: Result, bodies: Optional[Tuple[str, str]]) -> str:
     return f"contact undecided ({found.reason}), proved clear before t = {_time(found.t_lower)}"
 
 
-def _clearance_text(answer: Clearance, contact: Optional[Result]) -> str:
+def _robust_words(answer: Clearance, robust: Tuple[float, float]) -> str:
+    """The end of a line about a motion that is not exact."""
+    words = f", with joints off by up to {robust[0]:.4g} rad or {_length(robust[1])}"
+    if robust[1] > 0:
+        words += f" and each body by up to {_length(robust[1])}"
+    off = {name: value for name, value in (answer.parameters or {}).items() if value != 0}
+    if answer.verdict == "violated" and off:
+        words += f": {', '.join(f'{name} = {value:.4g}' for name, value in off.items())}"
+    return words
+
+
+def _clearance_text(answer: Clearance, contact: Optional[Result], off: float = 0) -> str:
+    """`off`: so much of what was required is for bodies that are not where they should be."""
     span = f"from t = {_time(answer.t_start)} to {_time(answer.t_end)}"
-    distance = _length(answer.required or 0)
+    distance = _length((answer.required or 0) - off)
     if answer.verdict == "holds":
         return f"holds: nothing comes within {distance} {span}, proved"
     if answer.verdict != "violated":
@@ -185,7 +201,10 @@ def _samples_text(answer: Answer, samples: Samples) -> str:
 
 def as_text(answer: Answer) -> str:
     """One line; a second one about samples."""
-    if answer.clearance is not None:
+    if answer.clearance is not None and answer.robust is not None:
+        line = _clearance_text(answer.clearance, None, 2 * answer.robust[1])
+        line += _robust_words(answer.clearance, answer.robust)
+    elif answer.clearance is not None:
         line = _clearance_text(answer.clearance, answer.contact)
     else:
         line = _contact_text(answer.contact) if answer.contact is not None else "undecided"
