@@ -291,9 +291,9 @@ static void take_aims(prover *p, const cell *c, const double n[3], aim a[2])
 
 /* What is known of an axis that does not do it, from the undivided pieces. */
 typedef struct trial {
-    double left;                /* what is missing, by what is left over between the centres */
-    double size[2][VARIABLES];  /* the sides' dependence on the variables, if they are single */
-    double width[2], spread[2]; /* of the pieces' bounds and of their centres */
+    double left;               /* what is missing, by what is left over between the centres */
+    double size[2][VARIABLES]; /* a piece's dependence on the variables, at most, about */
+    double width[2];           /* of the bounds of each side */
 } trial;
 
 static void take_trial(const prover *p, double limit, trial *tried)
@@ -302,15 +302,14 @@ static void take_trial(const prover *p, double limit, trial *tried)
     const double most = -(a.value + b.value) - limit, low = -(a.bound + b.bound) - limit;
     tried->left = most > 0 ? low / most : -INFINITY;
     for (int side = 0; side < 2; ++side) {
-        double lo = INFINITY, least = INFINITY;
+        double lo = INFINITY, *size = tried->size[side];
+        memset(size, 0, sizeof tried->size[side]);
         for (size_t k = 0; k < p->count[side]; ++k) {
             const shadow *s = &p->areas[side][k].s;
             lo = proof_smaller(lo, s->lo);
-            least = proof_smaller(least, s->value);
-            memcpy(tried->size[side], s->size, sizeof s->size);
+            for (int j = 0; j < VARIABLES; ++j) size[j] = proof_larger(size[j], s->size[j]);
         }
         tried->width[side] = (side == 0 ? a.bound : b.bound) - lo;
-        tried->spread[side] = (side == 0 ? a.value : b.value) - least;
     }
 }
 
@@ -425,17 +424,14 @@ static bool widest(const cell *c, const trial *tried, cut *by)
     return width > 0;
 }
 
-/* The side of many pieces with the greater shadow, or time if that blurs shadows. */
+/* The side of many pieces with the greater shadow, or time if the pieces depend on it more. */
 static bool divide_many(const cell *c, const trial *tried, cut *by)
 {
-    double size[2], blur = 0;
-    for (int side = 0; side < 2; ++side) {
-        size[side] = c->count[side] > 1 ? tried->width[side] : -1;
-        blur += tried->width[side] - tried->spread[side];
-    }
+    double size[2];
+    for (int side = 0; side < 2; ++side) size[side] = c->count[side] > 1 ? tried->width[side] : -1;
     const int larger = size[1] > size[0];
-    const bool is_time = blur > 2 * size[larger] && c->t[0] < c->t[1];
-    *by = (cut){is_time ? 2 : larger, 0, NAN};
+    const double time = proof_larger(tried->size[0][T], tried->size[1][T]);
+    *by = (cut){2 * time > size[larger] && c->t[0] < c->t[1] ? 2 : larger, 0, NAN};
     return true;
 }
 
