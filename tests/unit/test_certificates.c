@@ -3,10 +3,13 @@
 #include <config.h>
 
 #include <check.h>
+#include <float.h>
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
+
+#include <mpfi.h>
 
 #include "tests/support/suite.h"
 #include "tools/verify/walk.h"
@@ -14,7 +17,7 @@
 /* impinge-verify on certificates that are made here, and on thousands of changes of them: whatever
  * is accepted must be true, as points of the formulas show. */
 
-enum { BYTES_MAX = 4096, EFFORT = 200, EFFORT_OF_CHANGES = 24 };
+enum { BYTES_MAX = 8192, EFFORT = 200, EFFORT_OF_CHANGES = 24 };
 
 typedef struct certificate {
     uint8_t bytes[BYTES_MAX];
@@ -48,6 +51,17 @@ static certificate made(const char *text, const uint8_t *tree, size_t size)
     return c;
 }
 
+/* Two triangles over two others. */
+static const char roofs[] =
+    "impinge certificate 1\nprogram impinge 0\nverdict clear\napart 0.5\nfrom 0\nto 1\n"
+    "body floor\nshape 2 mesh\nu in [0, 1]; v in [0, 1]; u; v*(1 - u); 0\n"
+    "u in [0, 1]; v in [0, 1]; -u; v*(1 - u); 0\nsurface 0 0\n"
+    "body roof\nshape 2 mesh\nu in [0, 1]; v in [0, 1]; u; v*(1 - u); 1 + u\n"
+    "u in [0, 1]; v in [0, 1]; -u; v*(1 - u); 1 + u\nsurface 1 1\ntrees\n";
+
+static const uint8_t roofs_tree[] = {0, 1, 0, 1, 0, 1, 1, 1, 0, 0, 7, 2, 7, 7};
+
+static certificate roofs_made(void) { return made(roofs, roofs_tree, sizeof roofs_tree); }
 static certificate bowl_made(void) { return made(bowl, bowl_tree, sizeof bowl_tree); }
 static certificate balls_made(void) { return made(balls, balls_tree, sizeof balls_tree); }
 
@@ -113,9 +127,10 @@ static void require(const certificate *c, const char *why)
 
 START_TEST(true_certificates_hold)
 {
-    const certificate a = bowl_made(), b = balls_made();
+    const certificate a = bowl_made(), b = balls_made(), c = roofs_made();
     require(&a, NULL);
     require(&b, NULL);
+    require(&c, NULL);
 }
 END_TEST
 
@@ -125,6 +140,29 @@ START_TEST(false_certificates_are_refused)
         bool is_balls;
         const char *from, *to, *why;
     } changes[] = {
+        {false, "verdict contact", "verdict safe", "verdict"},
+        {false, "within 0.6 at 0.5\npoint 0 0 0 0\npoint 1 0 0 0\n", "", "no points"},
+        {false, "verdict contact\n", "", "verdict"},
+        {false, "apart 0x1p-4", "apart 0x1p-4\napart 0x1p-9", "second"},
+        {false, "apart 0x1p-4\n", "", "nothing"},
+        {false, "to 0.5", "to -0.5", "nothing"},
+        {false, "to 0.5", "to inf", "finite"},
+        {false, "body bowl", "body \x1b[2Kbowl", "byte 27"},
+        {false, "point 1 0 0 0", "point 1 0 nan 0", "finite"},
+        {false, "point 1 0 0 0", "point 1 7 0 0", "no piece"},
+        {false, "point 1 0 0 0", "point 9 0 0 0", "no surface"},
+        {false, "surface 0 0\nbody", "surface 1 0\nbody", "number"},
+        {false, "surface 1 1 2\n", "surface 1 1 2\nbody c\nsurface 2 0\n", "not here"},
+        {false, "surface 1 1 2\n", "surface 1 1 2\nsurface 0 0\n", "order"},
+        {false, "surface 1 1 2\n", "surface 1 1 0\n", "no type and maps"},
+        {false, "u; v; 0.1", "u; v; 9 | u in [-1, 1]; v in [-1, 1]; u; v; 0.1", "overlap"},
+        {false, "shape 1 formula\nh", "shape 0 formula\nbody h", "no piece"},
+        {false, "map 1 translate", "map 2 translate", "pieces"},
+        {false, "x; y; z - t", "z in [0, 1]; x; y; z - t", "domain of z"},
+        {true, "surface 1 2 1", "map 1 rotate\nx; y; z\nsurface 1 2 3", "do not share"},
+        {true, "; z\nsurface 0", "; abs(z)\nsurface 0", "rigid"},
+        {true, "x*cos(2*t) - y*sin(2*t); x*sin(2*t) + y*cos(2*t); z", "x/2; y/2; z/2", "rigid"},
+        {true, "x*cos(2*t) - y*sin(2*t); x*sin(2*t) + y*cos(2*t); z", "x; y; z*(1 + t)", "rigid"},
         {false, "apart 0x1p-4", "apart 0.6", "apart"},
         {false, "to 0.5", "to 1.5", "apart"},
         {false, "0.1*(u^2", "0.6*(u^2", "apart"},
@@ -175,6 +213,40 @@ START_TEST(trees_that_leave_out_cells_are_refused)
 }
 END_TEST
 
+START_TEST(trees_that_make_no_sense_are_refused)
+{
+    static const struct {
+        size_t at;
+        uint8_t byte;
+        const char *why;
+    } changes[] = {{2, 9, "more maps"},     {3, 2, "above"},    {3, 255, "above"},
+                   {5, 0, "names piece 0"}, {9, 1, "along v"},  {11, 3, "along v"},
+                   {11, 8, "unknown"},      {11, 6, "no axis"}, {12, 2, ""},
+                   {1, 0, "not here"}};
+    for (size_t k = 0; k < sizeof changes / sizeof *changes; ++k) {
+        certificate c = roofs_made();
+        c.bytes[strlen(roofs) + changes[k].at] = changes[k].byte;
+        require(&c, changes[k].why);
+    }
+    certificate deep = bowl_made();
+    memset(deep.bytes + strlen(bowl) + 3, 0, BYTES_MAX - strlen(bowl) - 3);
+    deep.size = BYTES_MAX;
+    require(&deep, "too deep");
+}
+END_TEST
+
+/* A map that shrinks lengths a little leaves as much less between the bodies. */
+START_TEST(maps_left_out_shrink_the_claim)
+{
+    certificate c = balls_made();
+    replace(&c, "x*cos(2*t) - y*sin(2*t); x*sin(2*t) + y*cos(2*t); z", "0.9*x; 0.9*y; 0.9*z");
+    replace(&c, "apart 0.25", "apart 1.7");
+    require(&c, NULL);
+    replace(&c, "apart 1.7", "apart 1.81");
+    require(&c, "apart");
+}
+END_TEST
+
 START_TEST(bad_axes_cost_time_and_no_verdict)
 {
     certificate c = bowl_made();
@@ -198,14 +270,18 @@ END_TEST
 
 /* --- Changes at random ------------------------------------------------------------------------ */
 
-static bool point_of(const statement *s, size_t chain_index, jet *room, const double p[3],
-                     double x[3])
+static size_t draw_piece(const statement *s, size_t chain_index, uint64_t *seed)
 {
-    const place of = {s, &s->chains[chain_index], 0, s->chains[chain_index].count - 1, room};
+    const size_t count = s->stages[s->chains[chain_index].stages[0]].count;
+    return (size_t)(random_between(seed, 0, 1) * (double)count);
+}
+
+static bool point_of(const place *of, const double p[3], double x[3])
+{
     const box3 where = {{p[0], p[1], p[2]}, {p[0], p[1], p[2]}};
     jet out[3], same[3];
     split unused;
-    if (enclose(&of, &where, p, out, same, &unused) != ENCLOSED) return false;
+    if (enclose(of, &where, p, out, same, &unused) != ENCLOSED) return false;
     for (int i = 0; i < 3; ++i) {
         if (!(out[i].v.hi - out[i].v.lo < 1e-9)) return false;
         x[i] = out[i].v.lo;
@@ -219,13 +295,16 @@ static bool is_false(const statement *s, uint64_t *seed)
 {
     jet *room = malloc((2 * (size_t)s->steps + 1) * sizeof *room);
     double best = INFINITY, at[5] = {0, 0, 0, 0, s->from}, size = 1;
-    box3 all[2];
-    for (size_t k = 0; k < 2; ++k) {
-        const place of = {s, &s->chains[k], 0, 0, room};
-        piece_box(&of, &all[k]);
-    }
+    place best_place[2] = {{.of = NULL}, {.of = NULL}};
     for (int draw = 0; draw < 200; ++draw) {
         double p[5], x[2][3];
+        box3 all[2];
+        place on[2];
+        for (size_t k = 0; k < 2; ++k) {
+            on[k] = (place){s, &s->chains[k], draw_piece(s, k, seed), s->chains[k].count - 1, room};
+            if (draw >= 60 && best < INFINITY) on[k] = best_place[k];
+            piece_box(&on[k], &all[k]);
+        }
         for (int j = 0; j < 5; ++j) {
             const double lo = j < 4 ? all[j / 2].lo[j % 2] : s->from;
             const double hi = j < 4 ? all[j / 2].hi[j % 2] : s->to;
@@ -234,9 +313,9 @@ static bool is_false(const statement *s, uint64_t *seed)
         }
         const double a[3] = {p[0], p[1], p[4]}, b[3] = {p[2], p[3], p[4]};
         if (draw > 60) size *= 0.93;
-        if (!point_of(s, 0, room, a, x[0]) || !point_of(s, 1, room, b, x[1])) continue;
+        if (!point_of(&on[0], a, x[0]) || !point_of(&on[1], b, x[1])) continue;
         const double gap = hypot(hypot(x[0][0] - x[1][0], x[0][1] - x[1][1]), x[0][2] - x[1][2]);
-        if (gap < best) best = gap, memcpy(at, p, sizeof at);
+        if (gap < best) best = gap, memcpy(at, p, sizeof at), memcpy(best_place, on, sizeof on);
     }
     free(room);
     return best < s->apart * (1 - 1e-9);
@@ -265,10 +344,10 @@ static void change(certificate *c, uint64_t *seed)
 START_TEST(no_change_makes_a_false_statement_hold)
 {
     uint64_t seed = suite_seed();
-    const int count = suite_times(800);
+    const int count = suite_times(2400);
     int accepted = 0;
     for (int k = 0; k < count; ++k) {
-        certificate c = k % 2 == 0 ? bowl_made() : balls_made();
+        certificate c = k % 3 == 0 ? bowl_made() : k % 3 == 1 ? balls_made() : roofs_made();
         for (int n = 1 + k % 3; n > 0; --n) change(&c, &seed);
         statement s;
         char fault[1400];
@@ -285,6 +364,62 @@ START_TEST(no_change_makes_a_false_statement_hold)
 }
 END_TEST
 
+/* --- Intervals -------------------------------------------------------------------------------- */
+
+/* An end, of any size, often one where rounding or overflow begins. */
+static double draw_end(uint64_t *seed)
+{
+    static const double hard[] = {0,        1,        -1, 0x1p-1074, 0x1p-1022, -0x1p-540,
+                                  0x1p1023, -DBL_MAX, 3,  INFINITY,  -INFINITY};
+    const double k = random_between(seed, 0, 1);
+    if (k < 0.4) return hard[(size_t)(k / 0.4 * (double)(sizeof hard / sizeof *hard))];
+    return ldexp(random_between(seed, -1, 1),
+                 (int)random_between(seed, k < 0.8 ? -4 : -1000, k < 0.8 ? 4 : 1000));
+}
+
+static ld_interval draw_interval(uint64_t *seed)
+{
+    const double a = draw_end(seed), b = random_between(seed, 0, 1) < 0.3 ? a : draw_end(seed);
+    return ld_interval_make(a < b ? a : b, a < b ? b : a);
+}
+
+static void set_interval(mpfi_ptr to, ld_interval x)
+{
+    mpfr_set_d(&to->left, x.lo, MPFR_RNDD);
+    mpfr_set_d(&to->right, x.hi, MPFR_RNDU);
+}
+
+START_TEST(operations_in_doubles_contain_those_of_mpfi)
+{
+    uint64_t seed = suite_seed();
+    mpfi_t x, y, z;
+    mpfi_init2(x, 200), mpfi_init2(y, 200), mpfi_init2(z, 200);
+    for (int k = suite_times(20000); k > 0; --k) {
+        const ld_interval a = draw_interval(&seed), b = draw_interval(&seed);
+        const ld_interval made[] = {ld_interval_add(a, b), ld_interval_sub(a, b),
+                                    ld_interval_mul(a, b), ld_interval_div(a, b),
+                                    ld_interval_sqr(a),    ld_interval_sqrt(a)};
+        set_interval(x, a), set_interval(y, b);
+        for (int n = 0; n < 6; ++n) {
+            if (n == 3 && b.lo <= 0 && b.hi >= 0) continue;
+            if (n == 0) mpfi_add(z, x, y);
+            if (n == 1) mpfi_sub(z, x, y);
+            if (n == 2) mpfi_mul(z, x, y);
+            if (n == 3) mpfi_div(z, x, y);
+            if (n == 4) mpfi_sqr(z, x);
+            if (n == 5) mpfi_sqrt(z, x);
+            ck_assert_msg(mpfi_nan_p(z) || (mpfr_cmp_d(&z->left, made[n].lo) >= 0 &&
+                                            mpfr_cmp_d(&z->right, made[n].hi) <= 0),
+                          "operation %d of [%a, %a] and [%a, %a]: [%a, %a]", n, a.lo, a.hi, b.lo,
+                          b.hi, made[n].lo, made[n].hi);
+        }
+    }
+    mpfi_clear(x), mpfi_clear(y), mpfi_clear(z);
+}
+END_TEST
+
 SUITE_MAIN("certificates", true_certificates_hold, false_certificates_are_refused,
-           trees_that_leave_out_cells_are_refused, bad_axes_cost_time_and_no_verdict,
-           what_cannot_be_said_is_assumed, no_change_makes_a_false_statement_hold)
+           trees_that_leave_out_cells_are_refused, trees_that_make_no_sense_are_refused,
+           maps_left_out_shrink_the_claim, operations_in_doubles_contain_those_of_mpfi,
+           bad_axes_cost_time_and_no_verdict, what_cannot_be_said_is_assumed,
+           no_change_makes_a_false_statement_hold)

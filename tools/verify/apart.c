@@ -337,10 +337,10 @@ static outcome try_axis(prover *p, const cell *c, const double n[3], trial *trie
             const box3 where = area_of(p, c, side, k, &of);
             if (!add_area(p, side, &of, &where, &a[side])) return fail(p, c, INFINITY, p->why);
         }
-        if (p->count[side] == 0) return APART; /* it does not exist */
     }
     take_trial(p, limit, tried);
     for (int step = 0;; ++step) {
+        if (p->count[0] == 0 || p->count[1] == 0) return APART; /* it does not exist */
         const reach r[2] = {reach_of(p, 0), reach_of(p, 1)};
         const ld_interval sum =
             ld_interval_add(ld_interval_of(r[0].bound), ld_interval_of(r[1].bound));

@@ -68,8 +68,8 @@ char *input_line(input *in, size_t most)
             line[length] = '\0';
             return line;
         }
-        if (c == '\0' || length == most) {
-            input_refuse(in, c == '\0' ? "a line holds a byte 0" : "a line is too long");
+        if (c < ' ' || c == 127 || length == most) { /* control bytes could change what is shown */
+            input_refuse(in, length == most ? "a line is too long" : "a line holds byte %u", c);
             break;
         }
         line[length++] = (char)c;

@@ -180,6 +180,26 @@ static int check_receipt(const request *asked, const statement *s)
 
 /* --- The answer ------------------------------------------------------------------------------- */
 
+typedef struct number_text {
+    char text[32];
+} number_text;
+
+/* The fewest digits that read back exactly: a claim that is rounded would be another one. */
+static number_text exact(double x)
+{
+    number_text to;
+    for (int digits = 1; digits <= 17; ++digits) {
+        snprintf(to.text, sizeof to.text, "%.*g", digits, x);
+        if (strtod(to.text, NULL) == x) break;
+    }
+    return to;
+}
+
+static void say_count(const char *one, const char *many, uint64_t n, const char *rest)
+{
+    printf("%llu %s%s", (unsigned long long)n, n == 1 ? one : many, rest);
+}
+
 static int report(const request *asked, const statement *s, const outcome *all)
 {
     if (all->refused) {
@@ -190,11 +210,16 @@ static int report(const request *asked, const statement *s, const outcome *all)
     if (status != HOLDS) return status;
     printf("holds%s%s\n", all->assumed[0] != '\0' ? " assuming " : "", all->assumed);
     if (asked->quiet) return HOLDS;
-    printf("%s: no two points nearer than %.9g from t = %.9g to %.9g\n", s->verdict, s->apart,
-           s->from, s->to);
-    if (s->has_points) printf("two points within %.9g at t = %.9g\n", s->within, s->t);
-    printf("%llu pairs of surfaces, %llu leaves, %llu tests\n", (unsigned long long)all->pairs,
-           (unsigned long long)all->leaves, (unsigned long long)all->tests);
+    printf("%s: no two points nearer than %s", s->verdict, exact(s->apart).text);
+    printf(" from t = %s", exact(s->from).text);
+    printf(" to %s\n", exact(s->to).text);
+    if (s->has_points)
+        printf("two points within %s at t = %s\n", exact(s->within).text, exact(s->t).text);
+    if (s->ignored_count > 0)
+        say_count("ignored pair", "ignored pairs", s->ignored_count, " of bodies\n");
+    say_count("pair", "pairs", all->pairs, " of surfaces, ");
+    say_count("leaf", "leaves", all->leaves, ", ");
+    say_count("test", "tests", all->tests, "\n");
     return HOLDS;
 }
 

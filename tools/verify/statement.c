@@ -11,7 +11,7 @@
 
 #include "core/common/array.h"
 
-enum { LINE_MAX_ = 1 << 24, PIECES_MAX = 1 << 24, STAGES_MAX = 64 };
+enum { LINE_MAX_ = 1 << 24, PIECES_MAX = 1 << 24, PARTS_MAX = 1 << 16, STAGES_MAX = 64 };
 
 /* Room for one more item of a list; false: a fault. */
 #define GROW(IN, LIST, COUNT, ROOM)                                                                \
@@ -72,6 +72,8 @@ static bool take_part(input *in, bool is_map, const formula_range said[FORMULA_V
         const formula_range *range = &said[variable];
         p->lo[j] = range->is_said ? range->lo.lo : -INFINITY;
         p->hi[j] = range->is_said ? range->hi.hi : INFINITY;
+        p->inner_lo[j] = range->is_said ? range->lo.hi : -INFINITY;
+        p->inner_hi[j] = range->is_said ? range->hi.lo : INFINITY;
         if (!is_map && j < 2 && !(p->lo[j] > -INFINITY && p->hi[j] < INFINITY))
             return input_refuse(in, "a formula says no finite domain of %c", "uv"[j]);
         if (is_map && j < 2 && said[j].is_said)
@@ -81,17 +83,35 @@ static bool take_part(input *in, bool is_map, const formula_range said[FORMULA_V
     return true;
 }
 
-/* Refuses a part of no size beside others, such as a curve at the edge of a surface, or at one
- * time: no box that is looked at would hold it. */
-static bool check_sizes(input *in, const piece *p)
+/* A part of no size beside others, such as a curve at the edge of a surface, or at one time: no box
+ * that is looked at would hold it. */
+static bool has_size(const piece *p, const part *q)
 {
-    bool good = !input_is_refused(in);
-    for (size_t k = 0; k < p->count && good; ++k)
-        for (int j = 0; j < 3; ++j)
-            for (size_t i = 0; i < p->count && p->parts[k].lo[j] == p->parts[k].hi[j]; ++i)
-                good = good && j < 2 && p->parts[i].lo[j] == p->parts[k].lo[j] &&
-                       p->parts[i].hi[j] == p->parts[k].hi[j];
-    return good || input_refuse(in, "a part of a formula has no size");
+    for (int j = 0; j < 3; ++j)
+        for (size_t i = 0; i < p->count && q->lo[j] == q->hi[j]; ++i)
+            if (j == 2 || p->parts[i].lo[j] != q->lo[j] || p->parts[i].hi[j] != q->hi[j])
+                return false;
+    return true;
+}
+
+/* Of parts that overlap, one would be left out. */
+static bool overlap(const part *a, const part *b)
+{
+    bool both = true;
+    for (int j = 0; j < 3; ++j)
+        both = both && fmax(a->inner_lo[j], b->inner_lo[j]) < fmin(a->inner_hi[j], b->inner_hi[j]);
+    return both;
+}
+
+static bool check_parts(input *in, const piece *p)
+{
+    for (size_t k = 0; k < p->count && !input_is_refused(in); ++k) {
+        if (!has_size(p, &p->parts[k])) input_refuse(in, "a part of a formula has no size");
+        for (size_t i = 0; i < k; ++i)
+            if (overlap(&p->parts[i], &p->parts[k]))
+                input_refuse(in, "parts %zu and %zu of a formula overlap", i + 1, k + 1);
+    }
+    return !input_is_refused(in);
 }
 
 static bool read_piece(statement *s, input *in, bool is_map, piece *p)
@@ -102,6 +122,10 @@ static bool read_piece(statement *s, input *in, bool is_map, piece *p)
     size_t room = 0;
     while (text != NULL && GROW(in, p->parts, p->count, room)) {
         formula_range said[FORMULA_VARIABLES];
+        if (p->count == PARTS_MAX) {
+            input_refuse(in, "a formula has more than %d parts", PARTS_MAX);
+            break;
+        }
         part *made = &p->parts[p->count];
         made->f = formula_read_part(&scope, text, said, fault, sizeof fault);
         if (made->f == NULL) {
@@ -115,7 +139,7 @@ static bool read_piece(statement *s, input *in, bool is_map, piece *p)
         text = formula_next_part(text);
     }
     free(line);
-    return check_sizes(in, p);
+    return check_parts(in, p);
 }
 
 static bool read_stage(statement *s, input *in, bool is_map, char **rest)
@@ -177,11 +201,18 @@ static void read_body(statement *s, input *in, const char *name)
         s->body_count += 1;
 }
 
+static int compare_ignored(const void *x, const void *y)
+{
+    const size_t *a = x, *b = y;
+    return a[0] != b[0] ? (a[0] < b[0] ? -1 : 1) : a[1] != b[1] ? (a[1] < b[1] ? -1 : 1) : 0;
+}
+
 static void read_ignored(statement *s, input *in, char **rest)
 {
     if (!GROW(in, s->ignored, s->ignored_count, s->ignored_room)) return;
-    for (int k = 0; k < 2; ++k) s->ignored[s->ignored_count][k] = whole(in, rest, s->body_count);
-    s->ignored_count += 1;
+    const size_t a = whole(in, rest, s->body_count), b = whole(in, rest, s->body_count);
+    s->ignored[s->ignored_count][0] = a < b ? a : b;
+    s->ignored[s->ignored_count++][1] = a < b ? b : a;
 }
 
 static void read_within(statement *s, input *in, char **rest)
@@ -203,6 +234,25 @@ static void read_within(statement *s, input *in, char **rest)
 }
 
 enum { KEY_APART = 1, KEY_FROM = 2, KEY_TO = 4, KEYS_NEEDED = 7 };
+
+/* What the answer promises beside that nothing is nearer: points. */
+static const struct {
+    const char *word;
+    bool has_points;
+} verdicts[] = {{"clear", false},    {"undecided", false}, {"holds", false},
+                {"distance", false}, {"contact", true},    {"violated", true}};
+
+static bool check_claim(const statement *s, input *in, unsigned keys)
+{
+    bool known = false;
+    if (input_is_refused(in)) return false;
+    for (size_t k = 0; k < sizeof verdicts / sizeof *verdicts; ++k)
+        known = known || (strcmp(verdicts[k].word, s->verdict) == 0 &&
+                          (s->has_points || !verdicts[k].has_points));
+    if (keys != KEYS_NEEDED || !(s->apart >= 0) || !(s->from <= s->to))
+        return input_refuse(in, "it says nothing of 'apart', 'from' and 'to'");
+    return known || input_refuse(in, "it has no verdict, or no points for it");
+}
 
 /* Reads a line; *done becomes true at the last. */
 static void read_line(statement *s, input *in, char *line, unsigned *keys, bool *done)
@@ -253,9 +303,9 @@ bool statement_read(statement *s, input *in)
         if (line != NULL) read_line(s, in, line, &keys, &done);
         free(line);
     }
-    if (keys != KEYS_NEEDED || !(s->apart >= 0) || !(s->from <= s->to))
-        input_refuse(in, "it says nothing of 'apart', 'from' and 'to'");
-    return !input_is_refused(in);
+    if (s->ignored_count > 0)
+        qsort(s->ignored, s->ignored_count, sizeof *s->ignored, compare_ignored);
+    return check_claim(s, in, keys);
 }
 
 void statement_free(statement *s)
@@ -279,11 +329,9 @@ void statement_free(statement *s)
 
 bool statement_ignores(const statement *s, size_t a, size_t b)
 {
-    for (size_t k = 0; k < s->ignored_count; ++k) {
-        const size_t *pair = s->ignored[k];
-        if ((pair[0] == a && pair[1] == b) || (pair[0] == b && pair[1] == a)) return true;
-    }
-    return a == b;
+    const size_t pair[2] = {a < b ? a : b, a < b ? b : a};
+    return a == b || (s->ignored_count > 0 && bsearch(pair, s->ignored, s->ignored_count,
+                                                      sizeof *s->ignored, compare_ignored) != NULL);
 }
 
 bool statement_is_said(const statement *s, const chain *c)

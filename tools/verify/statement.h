@@ -11,10 +11,10 @@
  * The lines before the trees (core/CERTIFICATE.md): the claim, each instance of a type by its
  * formulas, and the surfaces as chains of instances. */
 
-/* A part of a formula and where it holds: u, v and t, or of a map t alone (the others infinite). A
- * little more than the exact ends, since these are rounded outward to doubles. */
+/* A part of a formula and where it holds: u, v and t, or of a map t alone (the others infinite),
+ * from lo to hi, which are outside of the exact ends, at least between those inside of them. */
 typedef struct part {
-    double lo[3], hi[3];
+    double lo[3], hi[3], inner_lo[3], inner_hi[3];
     formula *f;
 } part;
 
@@ -57,7 +57,7 @@ typedef struct statement {
     stage *stages;
     chain *chains;
     char **bodies;
-    size_t (*ignored)[2];
+    size_t (*ignored)[2]; /* bodies a < b, sorted */
     size_t source_count, stage_count, chain_count, body_count, ignored_count;
     size_t source_room, stage_room, chain_room, body_room, ignored_room;
     int steps; /* most of any formula */

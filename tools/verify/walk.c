@@ -176,7 +176,7 @@ static bool take_pair(walk *w, size_t a, size_t b, const work *room)
     p.prover.tests_most = w->effort;
     p.prover.kept = room->kept;
     w->pairs += 1;
-    if (input_count(w->in, s->chain_count) != a || input_count(w->in, s->chain_count) != b)
+    if (input_count(w->in, UINT32_MAX) != a || input_count(w->in, UINT32_MAX) != b)
         return input_refuse(w->in, "the tree of surfaces %zu and %zu is not here", a, b);
     for (int side = 0; side < 2; ++side) {
         p.prover.side[side] = (place){.of = s, .chain = p.chain[side], .room = room->steps};
