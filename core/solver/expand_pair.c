@@ -288,7 +288,7 @@ static imp_code expand_by_models(impact *im, pair *p, impact_state *state, imp_e
 
 imp_code expand_pair(impact *im, pair *p, impact_state *state, imp_error *error)
 {
-    const imp_code code = candidate_pair_measure(candidate_pair_of(im, p), error);
+    const imp_code code = pair_measure(p, candidate_pair_of(im, p), error);
     if (code != IMP_SUCCESS) return code;
     if (!p->a->bounded || !p->b->bounded) return expand_unbounded(im, p, state, error);
     return im->baseline != IMP_BASELINE_NONE ? expand_by_paper(im, p, state, error)

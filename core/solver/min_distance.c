@@ -155,7 +155,7 @@ static imp_code find_witness(min_distance *m, const pair *p, imp_error *error)
 static imp_code take_start(min_distance *m, imp_error *error)
 {
     const pair p = m->starts[m->start_count - 1];
-    imp_code code = candidate_pair_measure(&m->candidates[p.candidate_pair], error);
+    imp_code code = pair_measure(&p, &m->candidates[p.candidate_pair], error);
     if (code == IMP_SUCCESS) code = find_witness(m, &p, error);
     if (code != IMP_SUCCESS) return code;
     m->start_count -= 1;
@@ -205,12 +205,11 @@ static imp_code look(min_distance *m, pair *p, distance_outcome *seen, imp_error
 static imp_code follow(min_distance *m, pair p, imp_error *error)
 {
     distance_outcome seen;
-    if (p.wait == 0) {
-        const imp_code code = find_witness(m, &p, error);
-        if (code != IMP_SUCCESS) return code;
-    }
+    imp_code code = pair_measure(&p, &m->candidates[p.candidate_pair], error);
+    if (code == IMP_SUCCESS && p.wait == 0) code = find_witness(m, &p, error);
+    if (code != IMP_SUCCESS) return code;
     p.wait = p.wait == 0 ? TUNING_WITNESS_WAIT : p.wait - 1;
-    const imp_code code = look(m, &p, &seen, error);
+    code = look(m, &p, &seen, error);
     if (code != IMP_SUCCESS || seen.is_apart || p.key[0] > enough(m)) return code;
     const cut c = choose_cut(m, &p, &seen);
     if (c.side >= 0) return split(m, &p, c, error);

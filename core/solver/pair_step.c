@@ -4,6 +4,11 @@
 
 #include "core/solver/pair_step.h"
 
+imp_code pair_measure(const pair *p, const candidate_pair *both, imp_error *error)
+{
+    return pair_has_cluster(p) ? IMP_SUCCESS : candidate_pair_measure(both, error);
+}
+
 /* Returns the input of distance_cut_sides; the slips are stored in the candidate pair. */
 static distance_sides sides_of(const pair *p, candidate_pair *both, bool keeps_proof)
 {

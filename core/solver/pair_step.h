@@ -25,6 +25,10 @@ static inline resolution resolution_of(double near, double far)
     return (resolution){room, 2 * room < near ? 2 * room : near};
 }
 
+/* Measures both candidates (candidate_pair_measure) before the pair is looked at. A cluster is cut
+ * whatever the errors of its points are, so for it nothing is evaluated yet. */
+imp_code pair_measure(const pair *p, const candidate_pair *both, imp_error *error);
+
 /* Computes the distances of the pair's nodes from each other's whole surfaces, if
  * strategy_takes_distances. Nodes farther apart than `limit` do not matter; `sliding` is the
  * candidate pair's count of trials. IMP_ERROR_PLUGIN: a callback breaks the ABI. `keeps_proof`:

@@ -43,6 +43,25 @@ imp_code surface_add_instance(surface *s, shared_instance *map)
     return IMP_SUCCESS;
 }
 
+static piece_table *pieces_new(size_t count)
+{
+    size_t bytes;
+    if (__builtin_mul_overflow(count, sizeof(surface) + 1, &bytes)) return NULL;
+    piece_table *p = malloc(sizeof *p + bytes);
+    if (p == NULL) return NULL;
+    pthread_mutex_init(&p->lock, NULL);
+    p->is_made = (void *)(p->at + count);
+    for (size_t k = 0; k < count; ++k) atomic_init(&p->is_made[k], false);
+    return p;
+}
+
+static void pieces_free(piece_table *p)
+{
+    if (p == NULL) return;
+    pthread_mutex_destroy(&p->lock);
+    free(p);
+}
+
 surface *surface_new_inner(const surface *s, size_t maps)
 {
     assert(maps <= s->map_count);
@@ -52,13 +71,7 @@ surface *surface_new_inner(const surface *s, size_t maps)
     inner->outer = s;
     inner->map_count = maps;
     if (s->pieces == NULL) return inner;
-    inner->pieces = malloc(s->piece_count * sizeof *inner->pieces);
-    for (size_t k = 0; inner->pieces != NULL && k < s->piece_count; ++k) {
-        inner->pieces[k] = s->pieces[k];
-        inner->pieces[k].whole = inner;
-        inner->pieces[k].outer = &s->pieces[k];
-        inner->pieces[k].map_count = maps;
-    }
+    inner->pieces = pieces_new(s->piece_count);
     if (inner->pieces != NULL) return inner;
     free(inner);
     return NULL;
@@ -67,44 +80,29 @@ surface *surface_new_inner(const surface *s, size_t maps)
 void surface_free(surface *s)
 {
     if (s == NULL) return;
+    pieces_free(s->pieces);
     if (s->outer != NULL) {
-        free(s->pieces);
         free(s);
         return;
     }
     for (size_t k = 0; k < s->map_count; ++k) instance_release(s->maps[k].origin);
     free(s->maps);
-    free(s->pieces);
     instance_release(s->origin);
     free(s);
 }
 
 imp_code surface_divide(surface *s)
 {
-    const shared_instance *origin = s->origin;
-    if (origin->piece_count == 0) return IMP_SUCCESS;
-    s->pieces = malloc(origin->piece_count * sizeof *s->pieces);
+    if (s->origin->piece_count == 0) return IMP_SUCCESS;
+    s->pieces = pieces_new(s->origin->piece_count);
     if (s->pieces == NULL) return IMP_ERROR_MEMORY;
-    s->piece_count = origin->piece_count;
-    for (size_t k = 0; k < s->piece_count; ++k) {
-        double lo[3], hi[3];
-        surface *piece = &s->pieces[k];
-        *piece = *s;
-        piece->whole = s;
-        piece->pieces = NULL;
-        piece->piece_count = 0;
-        piece->self = origin->pieces[k];
-        if (instance_domain(s->type, piece->self, lo, hi) != IMP_STATUS_OK)
-            continue; /* checked when it was made */
-        memcpy(piece->lo, lo, 2 * sizeof *lo);
-        memcpy(piece->hi, hi, 2 * sizeof *hi);
-    }
+    s->piece_count = s->origin->piece_count;
     return IMP_SUCCESS;
 }
 
 size_t surface_bytes(const surface *s)
 {
-    size_t bytes = sizeof *s + INSTANCE_BLOCK + s->piece_count * sizeof *s->pieces;
+    size_t bytes = sizeof *s + INSTANCE_BLOCK + s->piece_count * sizeof *s;
     if (s->outer != NULL) return bytes;
     bytes += s->map_capacity * sizeof *s->maps + instance_bytes(s->origin) / s->origin->holders;
     for (size_t k = 0; k < s->map_count; ++k)
@@ -124,10 +122,36 @@ const shared_instance *surface_origin(const surface *s, size_t k) { return surfa
 
 size_t surface_piece_count(const surface *s) { return s->piece_count; }
 
+/* Makes piece k, of an inner surface after that of the surface it belongs to. */
+static void make_piece(const surface *s, size_t k, surface *piece)
+{
+    double lo[3], hi[3];
+    *piece = s->outer != NULL ? *surface_piece(s->outer, k) : *s;
+    piece->whole = s;
+    piece->map_count = s->map_count;
+    piece->outer = s->outer != NULL ? surface_piece(s->outer, k) : NULL;
+    if (s->outer != NULL) return;
+    piece->pieces = NULL;
+    piece->piece_count = 0;
+    piece->self = s->origin->pieces[k];
+    if (instance_domain(s->type, piece->self, lo, hi) != IMP_STATUS_OK)
+        return; /* checked when its instance was made */
+    memcpy(piece->lo, lo, 2 * sizeof *lo);
+    memcpy(piece->hi, hi, 2 * sizeof *hi);
+}
+
 const surface *surface_piece(const surface *s, size_t k)
 {
     assert(k < s->piece_count);
-    return &s->pieces[k];
+    piece_table *pieces = s->pieces;
+    if (!atomic_load_explicit(&pieces->is_made[k], memory_order_acquire)) {
+        pthread_mutex_lock(&pieces->lock);
+        if (!atomic_load_explicit(&pieces->is_made[k], memory_order_relaxed))
+            make_piece(s, k, &pieces->at[k]);
+        atomic_store_explicit(&pieces->is_made[k], true, memory_order_release);
+        pthread_mutex_unlock(&pieces->lock);
+    }
+    return &pieces->at[k];
 }
 
 enum { PIECES_FEW = 8 };
@@ -142,14 +166,15 @@ bool surface_is_whole(const surface *s, const imp_region *region)
 
 size_t surface_piece_index(const surface *s)
 {
-    return s->whole != NULL ? (size_t)(s - s->whole->pieces) : 0;
+    return s->whole != NULL ? (size_t)(s - s->whole->pieces->at) : 0;
 }
 
 void surface_set_body(surface *s, const char *body, size_t index)
 {
     s->body = body;
     s->index = index;
-    for (size_t k = 0; k < s->piece_count; ++k) surface_set_body(&s->pieces[k], body, index);
+    for (size_t k = 0; k < s->piece_count; ++k)
+        if (s->pieces->is_made[k]) surface_set_body(&s->pieces->at[k], body, index);
 }
 
 /* Names the type and all maps, including those that an inner surface leaves out. */

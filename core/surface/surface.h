@@ -24,13 +24,14 @@ surface *surface_new_inner(const surface *s, size_t maps);
 
 void surface_free(surface *s);
 
-/* Makes a surface of each piece, under the same maps, if the type's instance consists of pieces. No
- * map may be added after that. Functions of the whole then apply to the first piece. */
+/* Makes room for a surface of each piece, under the same maps, if the type's instance consists of
+ * pieces; surface_piece makes them. No map may be added after that. Functions of the whole then
+ * apply to the first piece. */
 imp_code surface_divide(surface *s);
 
 /* Returns the number of pieces; 0: it is one surface. */
 size_t surface_piece_count(const surface *s);
-const surface *surface_piece(const surface *s, size_t k); /* k < surface_piece_count */
+const surface *surface_piece(const surface *s, size_t k); /* k < surface_piece_count; any thread */
 
 /* Whether the region has all u and v of the surface, which is none of many pieces. */
 bool surface_is_whole(const surface *s, const imp_region *region);

@@ -3,6 +3,9 @@
 #ifndef CORE_SURFACE_SURFACE_INTERNAL_H
 #define CORE_SURFACE_SURFACE_INTERNAL_H
 
+#include <pthread.h>
+#include <stdatomic.h>
+
 #include "core/base/active_callback.h"
 #include "core/base/fp_mode.h"
 #include "core/surface/surface.h"
@@ -19,6 +22,8 @@ typedef struct mapping {
     shared_instance *origin; /* held */
 } mapping;
 
+typedef struct piece_table piece_table;
+
 struct surface {
     const imp_surface_type *type;
     const void *self;
@@ -28,10 +33,18 @@ struct surface {
     double lo[3], hi[3]; /* the domain */
     const char *body;    /* name of the body it belongs to, or NULL */
     size_t index;        /* its number in the body */
-    surface *pieces;     /* piece_count of them, which share origin and maps; or NULL */
+    piece_table *pieces; /* piece_count of them, which share origin and maps; or NULL */
     size_t piece_count;
     const surface *whole; /* the surface that it is a piece of, or NULL */
     const surface *outer; /* its type and first maps belong to this surface, or NULL */
+};
+
+/* Surfaces of the pieces of one surface, each made when it is first asked for: a scene of a large
+ * mesh asks for few, and the others' memory is not touched. */
+struct piece_table {
+    pthread_mutex_t lock;   /* guards the making */
+    _Atomic(bool) *is_made; /* for each piece; behind the last */
+    surface at[];
 };
 
 /* 0 for a finite x, else NaN: a sum of these is 0 only if all are finite, and costs no branches. */
