@@ -8,6 +8,7 @@
 
 #include "core/broad_phase/candidates.h"
 #include "core/scene/scene.h"
+#include "core/surface/surface_internal.h"
 #include "core/tree/node.h"
 #include "tests/support/built_plugins.h"
 #include "tests/support/compose.h"
@@ -457,6 +458,57 @@ START_TEST(limits_end_the_making_of_a_large_hierarchy)
 }
 END_TEST
 
+/* A scene of the surfaces of another one, the second moved as it is there. */
+static imp_scene *again(const imp_scene *scene, const double velocity[3])
+{
+    imp_error error;
+    imp_builder *builder = imp_builder_new(registry);
+    const imp_argument moved = imp_argument_list("velocity", velocity, 3);
+    for (size_t b = 0; b < 2; ++b) {
+        ck_assert_int_eq(imp_builder_body(builder, b == 0 ? "a" : "b", NULL, &error), IMP_SUCCESS);
+        ck_assert_int_eq(imp_builder_surface_of(builder, b, scene, b, 0, &error), IMP_SUCCESS);
+    }
+    ck_assert_int_eq(imp_builder_map(builder, 1, "translate", &moved, 1, &error), IMP_SUCCESS);
+    imp_scene *made = imp_builder_finish(builder, &error);
+    ck_assert_msg(made != NULL, "%s", error.text);
+    imp_builder_free(builder);
+    return made;
+}
+
+static size_t pieces_made(const imp_scene *scene, size_t body)
+{
+    size_t made = 0;
+    for (size_t k = 0; k < FACES; ++k) made += scene_surface(scene, body, 0)->pieces->is_made[k];
+    return made;
+}
+
+START_TEST(a_scene_of_shared_meshes_makes_and_evaluates_the_pieces_it_reaches)
+{
+    uint64_t random = suite_seed();
+    const double down[3] = {0, 0.2, -1.5}, slow[3] = {0, 0.2, -0.5};
+    sheet sheets[2] = {rough_sheet(&random, 0, 0.1), rough_sheet(&random, 1.2, 0)};
+    imp_scene *first = scene_of(sheets, motions[1], true);
+    const imp_result expected = solve(first, IMP_BASELINE_NONE);
+    ck_assert_int_eq(expected.verdict, IMP_VERDICT_CONTACT);
+    ck_assert_uint_eq(pieces_made(first, 0), FACES); /* for the hierarchy */
+    imp_scene *second = again(first, down), *apart = again(first, slow);
+    imp_options options = imp_options_default(second);
+    options.gamma = expected.gamma;
+    imp_result r = {.struct_size = sizeof r};
+    ck_assert_int_eq(imp_scene_solve(second, &options, &r, NULL), IMP_SUCCESS);
+    ck_assert(r.t == expected.t && r.a.piece == expected.a.piece && r.b.piece == expected.b.piece);
+    ck_assert_uint_eq(r.stats.pairs, expected.stats.pairs);
+    ck_assert_uint_gt(pieces_made(second, 0), 0);
+    ck_assert(pieces_made(second, 1) > 0 && pieces_made(second, 1) < FACES);
+    ck_assert_int_eq(imp_scene_solve(apart, &options, &r, NULL), IMP_SUCCESS);
+    ck_assert_int_eq(r.verdict, IMP_VERDICT_CLEAR);
+    ck_assert_uint_eq(pieces_made(apart, 0) + pieces_made(apart, 1), 0);
+    imp_scene_free(first);
+    imp_scene_free(second);
+    imp_scene_free(apart);
+}
+END_TEST
+
 int main(void)
 {
     const TTest *const tests[] = {
@@ -468,6 +520,7 @@ int main(void)
         pieces_are_counted_and_asked_one_by_one,
         what_waits_names_a_piece_or_several,
         limits_end_the_making_of_a_large_hierarchy,
+        a_scene_of_shared_meshes_makes_and_evaluates_the_pieces_it_reaches,
     };
     return suite_main_with("pieces", tests, sizeof tests / sizeof *tests, open_registry,
                            close_registry);
