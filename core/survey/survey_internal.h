@@ -87,10 +87,11 @@ struct imp_survey {
     atomic_bool cancelled;
 };
 
-/* Finds the pairs, and how large surfaces are before their maps. */
+/* Finds the pairs, and makes room for their extents. */
 imp_code survey_find_pairs(imp_survey *s, imp_error *error);
 
-/* Chooses the parameter that is swept for each pair. */
+/* Chooses the parameter that is swept for each pair, and finds how large surfaces are before their
+ * maps. */
 imp_code survey_choose_swept(imp_survey *s, imp_error *error);
 
 /* Bounds what the values of a box shift the bodies of its pair by. s->at becomes the box's middle,

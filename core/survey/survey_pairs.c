@@ -85,7 +85,7 @@ static imp_code collect_pairs(imp_survey *s, imp_error *error)
 
 /* --- How large surfaces are ------------------------------------------------------------------- */
 
-static imp_code find_extents(imp_survey *s, imp_error *error)
+static imp_code make_room_for_extents(imp_survey *s, imp_error *error)
 {
     const size_t bodies = scene_body_count(s->scene);
     size_t count = 0;
@@ -96,9 +96,13 @@ static imp_code find_extents(imp_survey *s, imp_error *error)
         count += scene_surface_count(s->scene, b);
     }
     s->extents = malloc((count + 1) * sizeof *s->extents);
-    if (s->extents == NULL) return error_set_memory(error);
-    const value_box whole = {s->count, s->lo, s->hi, s->lo, s->options.t_start, s->options.t_end};
-    for (size_t b = 0; b < bodies; ++b)
+    return s->extents != NULL ? IMP_SUCCESS : error_set_memory(error);
+}
+
+static imp_code find_extents(imp_survey *s, double t_start, double t_end, imp_error *error)
+{
+    const value_box whole = {s->count, s->lo, s->hi, s->lo, t_start, t_end};
+    for (size_t b = 0; b < scene_body_count(s->scene); ++b)
         for (size_t k = 0; k < scene_surface_count(s->scene, b); ++k) {
             const surface *of = scene_surface(s->scene, b, k);
             const imp_status status = surface_extent_find(of, &whole, &s->extents[s->first[b] + k]);
@@ -112,7 +116,7 @@ static imp_code find_extents(imp_survey *s, imp_error *error)
 imp_code survey_find_pairs(imp_survey *s, imp_error *error)
 {
     const imp_code code = collect_pairs(s, error);
-    return code == IMP_SUCCESS ? find_extents(s, error) : code;
+    return code == IMP_SUCCESS ? make_room_for_extents(s, error) : code;
 }
 
 imp_code survey_add_roots(imp_survey *s, imp_error *error)
@@ -133,24 +137,37 @@ imp_code survey_add_roots(imp_survey *s, imp_error *error)
     return IMP_SUCCESS;
 }
 
+/* --- What queries take for their time --------------------------------------------------------- */
+
 /* The last maps that both share count here, since queries apply them. */
+static imp_code choose_swept(imp_survey *s, const survey_box *box, double t_start, double t_end,
+                             imp_error *error)
+{
+    survey_pair *pair = &s->pairs[box->pair];
+    survey_view view;
+    if (pair->body[0] == SURVEY_ALL_BODIES) return IMP_SUCCESS;
+    imp_code code = survey_measure(s, box, 0, t_start, t_end, &view, error);
+    if (code != IMP_SUCCESS || view.follows_time) return code;
+    code = survey_measure(s, box, pair->left_out, t_start, t_end, &view, error);
+    if (code != IMP_SUCCESS) return code;
+    double most = 0;
+    for (size_t j = 0; j < s->count; ++j)
+        if (s->shift[0][j] > most) most = s->shift[0][j], pair->swept = j;
+    return IMP_SUCCESS;
+}
+
+/* Lemma. Where a parameter takes the place of time, what follows time is evaluated at its values,
+ * too. What has rates of 0 in t over the times and all values is the same at all of them. */
 imp_code survey_choose_swept(imp_survey *s, imp_error *error)
 {
-    for (size_t k = 0; k < s->queue.count; ++k) {
-        const survey_box *box = s->queue.at[k];
-        survey_pair *pair = &s->pairs[box->pair];
-        survey_view view;
-        if (pair->body[0] == SURVEY_ALL_BODIES) continue;
-        imp_code code =
-            survey_measure(s, box, 0, s->options.t_start, s->options.t_end, &view, error);
-        if (code != IMP_SUCCESS) return code;
-        if (view.follows_time) continue;
-        code = survey_measure(s, box, pair->left_out, s->options.t_start, s->options.t_end, &view,
-                              error);
-        if (code != IMP_SUCCESS) return code;
-        double most = 0;
-        for (size_t j = 0; j < s->count; ++j)
-            if (s->shift[0][j] > most) most = s->shift[0][j], pair->swept = j;
+    double t_start = s->options.t_start, t_end = s->options.t_end;
+    for (size_t j = 0; j < s->count; ++j) {
+        if (s->lo[j] < t_start) t_start = s->lo[j];
+        if (s->hi[j] > t_end) t_end = s->hi[j];
     }
-    return IMP_SUCCESS;
+    imp_code code = find_extents(s, t_start, t_end, error);
+    for (size_t k = 0; k < s->queue.count && code == IMP_SUCCESS; ++k)
+        code = choose_swept(s, s->queue.at[k], t_start, t_end, error);
+    return code == IMP_SUCCESS ? find_extents(s, s->options.t_start, s->options.t_end, error)
+                               : code;
 }

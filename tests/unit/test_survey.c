@@ -152,6 +152,25 @@ START_TEST(a_common_parent_takes_no_part)
 }
 END_TEST
 
+/* What follows time keeps time where a query takes a parameter for its time, though it rests at the
+ * times asked about: it would move at the parameter's values. The balls are 0.5 apart at e = 5. */
+START_TEST(what_rests_for_a_while_keeps_time)
+{
+    imp_scene *scene =
+        scene_of("{'time':[0,1],'parameters':{'e':[0,5]},'bodies':["
+                 "{'surfaces':[{'type':'sphere','radius':0.5}],'maps':["
+                 "{'type':'map-formula','x':'x - max(t - 2, 0)'},"
+                 "{'type':'translate','velocity':[1,0,0],'clock':'e'}]},"
+                 "{'surfaces':[{'type':'sphere','radius':0.5,'center':[6.5,0,0]}]}]}");
+    const imp_clearance_options asked = imp_clearance_options_default();
+    const answer found = survey(scene, 1e-3, &asked, NULL);
+    ck_assert_double_le(found.near.lower, 0.5);
+    ck_assert_double_ge(found.near.upper, 0.5);
+    ck_assert_double_le(found.near.upper, 0.51);
+    imp_scene_free(scene);
+}
+END_TEST
+
 /* --- Clocks ----------------------------------------------------------------------------------- */
 
 START_TEST(the_clock_time_changes_no_bit)
@@ -412,6 +431,7 @@ int main(void)
     tcase_add_test(tcase, what_is_required_is_decided_for_all_values);
     tcase_add_test(tcase, the_earliest_contact_is_that_of_the_worst_values);
     tcase_add_test(tcase, a_common_parent_takes_no_part);
+    tcase_add_test(tcase, what_rests_for_a_while_keeps_time);
     tcase_add_test(tcase, the_clock_time_changes_no_bit);
     tcase_add_test(tcase, a_scene_at_values_stands_where_time_would_put_it);
     tcase_add_loop_test(tcase, no_sample_is_nearer_than_what_is_proved_of_its_box, 0, 4);
