@@ -360,6 +360,8 @@ IMP_EXPORT size_t imp_scene_body_count(const imp_scene *scene);
 /* Whether two bodies are never tested with each other: one ignores the other, or has no
  * surfaces. */
 IMP_EXPORT bool imp_scene_ignores(const imp_scene *scene, size_t a, size_t b);
+/* Counts the pairs of bodies that do not ignore each other, without asking about each. */
+IMP_EXPORT size_t imp_scene_pair_count(const imp_scene *scene);
 /* Returns the name of a body, which lives as long as the scene. */
 IMP_EXPORT const char *imp_scene_body_name(const imp_scene *scene, size_t body);
 /* Returns the number of surfaces of a body. */

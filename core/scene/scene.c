@@ -210,19 +210,28 @@ imp_code scene_ignore_members(imp_scene *scene, scene_members x, scene_members y
     return key_pairs_add(&scene->ignored, key_of(x), key_of(y)) ? IMP_SUCCESS : IMP_ERROR_MEMORY;
 }
 
-/* Returns the body's own key (k == 0), or that of its group number k - 1. */
-static size_t body_key(const imp_scene *scene, size_t index, size_t k)
+bool scene_key_is_of_body(size_t key) { return key % 2 == 0; }
+
+size_t scene_body_key_count(const imp_scene *scene, size_t body)
 {
-    if (k == 0) return key_of((scene_members){false, index});
-    return key_of((scene_members){true, scene->bodies[index].groups[k - 1]});
+    return 1 + scene->bodies[body].group_count;
 }
+
+size_t scene_body_key(const imp_scene *scene, size_t body, size_t k)
+{
+    if (k == 0) return key_of((scene_members){false, body});
+    return key_of((scene_members){true, scene->bodies[body].groups[k - 1]});
+}
+
+const key_pairs *scene_ignored(const imp_scene *scene) { return &scene->ignored; }
 
 bool scene_ignores(const imp_scene *scene, size_t a, size_t b)
 {
     if (scene->ignored.count == 0) return false;
     for (size_t j = 0; j <= scene->bodies[a].group_count; ++j)
         for (size_t k = 0; k <= scene->bodies[b].group_count; ++k)
-            if (key_pairs_have(&scene->ignored, body_key(scene, a, j), body_key(scene, b, k)))
+            if (key_pairs_have(&scene->ignored, scene_body_key(scene, a, j),
+                               scene_body_key(scene, b, k)))
                 return true;
     return false;
 }

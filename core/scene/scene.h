@@ -4,6 +4,7 @@
 #define CORE_SCENE_SCENE_H
 
 #include "core/base/arena_store.h"
+#include "core/scene/key_pairs.h"
 #include "core/scene/scene_parameters.h"
 #include "core/surface/surface.h"
 
@@ -44,6 +45,13 @@ typedef struct scene_members {
 /* No body of x is ever tested with one of y; x and y may be the same group. */
 imp_code scene_ignore_members(imp_scene *scene, scene_members x, scene_members y);
 bool scene_ignores(const imp_scene *scene, size_t a, size_t b);
+
+/* The keys that name a body, its own first, then those of its groups, and the pairs of keys that
+ * ignore each other. Keys are below twice the number of bodies or of groups. */
+size_t scene_body_key_count(const imp_scene *scene, size_t body);
+size_t scene_body_key(const imp_scene *scene, size_t body, size_t k);
+bool scene_key_is_of_body(size_t key); /* the body key / 2; else it is of the group key / 2 */
+const key_pairs *scene_ignored(const imp_scene *scene);
 
 /* Answer what imp_scene_body_count and imp_scene_surface_count do; body < scene_body_count. */
 size_t scene_body_count(const imp_scene *scene);

@@ -304,6 +304,59 @@ START_TEST(many_ignored_pairs_are_all_found)
 }
 END_TEST
 
+/* Prints a body in up to two of four groups, without a surface now and then. */
+static int print_member(char *text, size_t size, int k, uint64_t *state)
+{
+    char groups[40] = "";
+    const unsigned first = random_bits(state) % 4, count = random_bits(state) % 3;
+    if (count == 1) snprintf(groups, sizeof groups, ",'group':'g%u'", first);
+    if (count == 2)
+        snprintf(groups, sizeof groups, ",'group':['g%u','g%u']", first, (first + 1) % 4);
+    return snprintf(text, size, "%s{'name':'b%d','surfaces':[%s]%s}", k > 0 ? "," : "", k,
+                    random_bits(state) % 8 > 0 ? AT(0, 0, 0) : "", groups);
+}
+
+/* Prints two names of bodies, from the lower and the upper half of them, or of groups. */
+static int print_names(char *text, size_t size, unsigned bodies, uint64_t *state)
+{
+    char name[2][8];
+    for (unsigned k = 0; k < 2; ++k) {
+        const unsigned group = random_bits(state) % 4,
+                       body = k * bodies / 2 + random_bits(state) % (bodies / 2);
+        const bool is_group = random_bits(state) % 2 == 0;
+        snprintf(name[k], sizeof name[k], "%c%u", is_group ? 'g' : 'b', is_group ? group : body);
+    }
+    return snprintf(text, size, "['%s','%s']", name[0], name[1]);
+}
+
+START_TEST(pairs_are_counted_as_if_one_by_one)
+{
+    enum { BODIES_MADE = 14, TEXT = 4096 };
+    uint64_t state = suite_seed();
+    for (int n = 0; n < suite_times_at_least(40); ++n) {
+        char text[TEXT];
+        int used = snprintf(text, TEXT,
+                            "{'bodies':[{'name':'all','group':['g0','g1','g2','g3'],"
+                            "'surfaces':[" AT(0, 0, 0) "]},");
+        for (int k = 0; k < BODIES_MADE; ++k)
+            used += print_member(text + used, TEXT - (size_t)used, k, &state);
+        used += snprintf(text + used, TEXT - (size_t)used, "],'ignore':[");
+        for (unsigned k = 0, ignored = random_bits(&state) % 9; k < ignored; ++k) {
+            used += snprintf(text + used, TEXT - (size_t)used, "%s", k > 0 ? "," : "");
+            used += print_names(text + used, TEXT - (size_t)used, BODIES_MADE, &state);
+        }
+        snprintf(text + used, TEXT - (size_t)used, "]}");
+        imp_scene *scene = read_good(text);
+        size_t count = 0;
+        for (size_t a = 0; a <= BODIES_MADE; ++a)
+            for (size_t b = a + 1; b <= BODIES_MADE; ++b) count += !imp_scene_ignores(scene, a, b);
+        ck_assert_msg(imp_scene_pair_count(scene) == count, "%zu, not %zu: %s",
+                      imp_scene_pair_count(scene), count, text);
+        imp_scene_free(scene);
+    }
+}
+END_TEST
+
 SUITE_MAIN("mechanism", a_child_moves_with_its_parent_and_that_with_its_own,
            parents_there_are_not_are_refused, circles_of_parents_are_refused_and_told,
            definitions_stand_for_what_they_hold, definitions_there_are_not_are_refused,
@@ -311,4 +364,4 @@ SUITE_MAIN("mechanism", a_child_moves_with_its_parent_and_that_with_its_own,
            definitions_within_definitions_have_an_end, what_is_defined_is_created_once,
            ancestors_without_maps_count_for_nothing, long_chains_are_composed_or_refused,
            groups_are_ignored_among_themselves_and_with_others, groups_that_are_unclear_are_refused,
-           many_ignored_pairs_are_all_found)
+           many_ignored_pairs_are_all_found, pairs_are_counted_as_if_one_by_one)

@@ -126,15 +126,6 @@ static imp_clearance answer_of_none(const clearance_each *of, imp_reason reason,
                            .t_violated = NAN};
 }
 
-static size_t pair_count(const imp_scene *scene)
-{
-    const size_t bodies = imp_scene_body_count(scene);
-    size_t count = 0;
-    for (size_t a = 0; a < bodies; ++a)
-        for (size_t b = a + 1; b < bodies; ++b) count += !imp_scene_ignores(scene, a, b);
-    return count;
-}
-
 /* Pairs of bodies that are never both there have no part. */
 static bool add_absent(filling *f)
 {
@@ -158,7 +149,7 @@ static bool add_absent(filling *f)
 static bool count_rest(filling *f, size_t parts, imp_reason ended)
 {
     clearance_answers *found = f->found;
-    const size_t pairs = pair_count(f->of->scene);
+    const size_t pairs = imp_scene_pair_count(f->of->scene);
     const bool is_divided = imp_query_result(f->of->query).verdict != IMP_VERDICT_UNDECIDED;
     if (f->of->within > 0 && is_divided) found->beyond += pairs - parts;
     found->not_examined = pairs - found->count - found->beyond;

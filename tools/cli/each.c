@@ -76,7 +76,7 @@ typedef struct timed {
  * for the bodies' names: it is made once, in two halves. */
 struct printing {
     each *e;
-    bool json;
+    bool json, list_all;
     imp_result rest;    /* of the divided query */
     imp_result unknown; /* of a part that was not examined */
     char **names;       /* of bodies, as JSON */
@@ -205,43 +205,65 @@ static bool advance(void *context, double t_lower)
     return p->status == EXIT_ANSWERED;
 }
 
-/* Whether lines are left out: with hundreds of millions of them output would take longer than the
- * search. The clock is read now and then. */
-static bool is_cut(printing *p)
+/* Whether the rest is only counted: with hundreds of millions of lines output would take longer
+ * than the search. */
+static bool only_counts(const printing *p)
 {
-    enum { LINES_TO_LOOK = 256 };
-    if (p->clear == 0 && p->lines % LINES_TO_LOOK == 0 && is_over(p->e)) return true;
-    return p->clear > 0;
+    if (p->list_all) return interrupt_came();
+    return p->rest.verdict == IMP_VERDICT_UNDECIDED || is_over(p->e);
 }
 
+static bool is_unexamined(const imp_result *r)
+{
+    return r->struct_size == 0 || r->verdict == IMP_VERDICT_UNDECIDED;
+}
+
+/* Prints the line of a pair that has none yet; pairs that were not examined are counted. */
 static exit_status print_or_count(printing *p, const imp_result *r, size_t a, size_t b)
 {
-    const bool is_listed = arguments_option(p->e->args, "list-all") != NULL && !interrupt_came();
-    if (is_listed) return print_line(p, r->struct_size > 0 ? r : &p->unknown, a, b);
-    if (r->struct_size == 0 || r->verdict == IMP_VERDICT_UNDECIDED)
-        p->unexamined += 1;
-    else if (is_cut(p))
-        p->clear += 1;
-    else
-        return print_line(p, r, a, b);
+    if (p->list_all) return print_line(p, r->struct_size > 0 ? r : &p->unknown, a, b);
+    if (!is_unexamined(r)) return print_line(p, r, a, b);
+    p->unexamined += 1;
     return EXIT_ANSWERED;
 }
 
-/* Prints the clear parts in the order of the scene. Parts without an answer were not examined. */
-static exit_status print_clear(printing *p)
+/* Counts the pairs that have no line, from this part on; `others` pairs without a part had their
+ * turn. */
+static void count_rest(printing *p, size_t part, size_t others)
 {
     const each *e = p->e;
+    const size_t left = imp_scene_pair_count(e->scene) - e->plan.count - others;
+    for (; part < e->plan.count; ++part) {
+        const imp_result *r = &e->answers[part];
+        if (r->struct_size == 0)
+            p->unexamined += 1;
+        else
+            p->clear += r->verdict == IMP_VERDICT_CLEAR;
+    }
+    *(is_unexamined(&p->rest) ? &p->unexamined : &p->clear) += left;
+}
+
+/* Prints the clear parts in the order of the scene. Parts without an answer were not examined. The
+ * clock is read now and then. */
+static exit_status print_clear(printing *p)
+{
+    enum { PAIRS_TO_LOOK = 256 };
+    const each *e = p->e;
     const size_t bodies = imp_scene_body_count(e->scene);
-    size_t part = 0, of[2];
+    size_t part = 0, others = 0, looked = 0, of[2];
     exit_status status = EXIT_ANSWERED;
     for (size_t a = 0; a < bodies; ++a)
         for (size_t b = a + 1; b < bodies && status == EXIT_ANSWERED; ++b) {
+            if (looked++ % PAIRS_TO_LOOK == 0 && only_counts(p)) {
+                count_rest(p, part, others);
+                return EXIT_ANSWERED;
+            }
             const bool is_part =
                 imp_query_part_bodies(e->plan.whole, part, of) && of[0] == a && of[1] == b;
             const imp_result *r = is_part ? &e->answers[part] : &p->rest;
-            part += is_part;
-            if (is_part ? r->struct_size == 0 || r->verdict == IMP_VERDICT_CLEAR
-                        : !imp_scene_ignores(e->scene, a, b))
+            if (!is_part && imp_scene_ignores(e->scene, a, b)) continue;
+            part += is_part, others += !is_part;
+            if (!is_part || r->struct_size == 0 || r->verdict == IMP_VERDICT_CLEAR)
                 status = print_or_count(p, r, a, b);
         }
     return status;
@@ -305,6 +327,7 @@ static exit_status printing_begin(printing *p, each *e)
 {
     *p = (printing){.e = e,
                     .json = arguments_option(e->args, "json") != NULL,
+                    .list_all = arguments_option(e->args, "list-all") != NULL,
                     .rest = imp_query_result(e->plan.whole),
                     .waiting = calloc(e->plan.count + 1, sizeof *p->waiting),
                     .order = calloc(e->plan.count + 1, sizeof *p->order)};

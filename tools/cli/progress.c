@@ -29,9 +29,17 @@ void progress_begin(void) { begun = clock_seconds(); }
 
 void progress_choose(progress_mode chosen) { mode = chosen; }
 
+/* Asks the system once: counts of fast searches look a million times a second. */
+static bool is_terminal(void)
+{
+    static atomic_int known; /* 1 or 2: no or yes */
+    if (atomic_load(&known) == 0) atomic_store(&known, 1 + isatty(STDERR_FILENO));
+    return atomic_load(&known) == 2;
+}
+
 bool progress_is_wanted(void)
 {
-    return mode == PROGRESS_JSON || (mode == PROGRESS_AUTO && isatty(STDERR_FILENO));
+    return mode == PROGRESS_JSON || (mode == PROGRESS_AUTO && is_terminal());
 }
 
 double progress_seconds(void) { return clock_seconds() - begun; }
