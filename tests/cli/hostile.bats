@@ -431,6 +431,19 @@ all_hang() {
     done
 }
 
+@test "a callback that takes longer than --max-seconds while the scene is read ends the command, and is not blamed" {
+    local verb told='--max-seconds 0.1 was over while the scene was read; allow more (0: no limit)'
+    run -3 --separate-stderr hostile create spin --max-seconds 0.1
+    [ "$stderr" = "impinge: pair: $told" ]
+    json --arg told "pair: $told" '. == {error: $told}'
+    echo '{"bodies":[{"surfaces":[{"type":"hostile"}]}]}' >slow.json
+    for verb in clearance solve 'simulate -o motion.json' 'view -o view.svg'; do
+        # shellcheck disable=SC2086 # words
+        HOSTILE='create spin' run -3 "$IMPINGE" $verb slow.json --plugin-path "$here/plugins" --max-seconds 0.1
+        [ "$output" = "impinge: ${verb%% *}: $told" ]
+    done
+}
+
 @test "a callback that hangs in the host is named when SIGQUIT ends the command" {
     local folder phase whose
     ulimit -c 0

@@ -61,21 +61,22 @@ static void say(line *l)
     (void)written;
 }
 
-/* Says it as complain does, and with --json on standard output, too. */
-_Noreturn static void end_with(const line *what)
+_Noreturn void crash_end_with(const char *what, int status)
 {
     line text = {.used = 0}, object = {.used = 0};
     add(&text, "impinge: ");
-    add(&text, what->text);
+    add(&text, what);
     say(&text);
     if (json_wanted) {
         add(&object, "{\"error\":\"");
-        add_escaped(&object, what->text);
+        add_escaped(&object, what);
         add(&object, "\"}\n");
         standard_output_write_at_crash(object.text, object.used);
     }
-    leave(EXIT_PLUGIN);
+    leave(status);
 }
+
+_Noreturn static void end_with(const line *what) { crash_end_with(what->text, EXIT_PLUGIN); }
 
 /* --- Whose fault it is ------------------------------------------------------------------------ */
 

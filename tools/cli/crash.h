@@ -11,6 +11,10 @@
  * signal. */
 void crash_prepare(bool json);
 
+/* Ends the process, from a signal handler too, in whatever callback it is: prints the text as
+ * complain does. Precondition: it has no control characters. */
+_Noreturn void crash_end_with(const char *text, int status);
+
 /* A handler for signals by which the user ends the command: prints in which callbacks the threads
  * are, in case one hangs, and lets the signal end the process. crash_prepare installs it for
  * SIGQUIT, unless that is ignored. */

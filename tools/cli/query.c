@@ -17,6 +17,7 @@
 #include "tools/cli/output.h"
 #include "tools/cli/progress.h"
 #include "tools/cli/proof_output.h"
+#include "tools/cli/reading_limit.h"
 #include "tools/cli/result.h"
 #include "tools/cli/survey.h"
 #include "tools/cli/verbs.h"
@@ -353,7 +354,9 @@ static imp_scene *read_scene(imp_registry *registry, const arguments *args, bool
 imp_scene *query_scene(imp_registry *registry, const arguments *args, bool *complained,
                        imp_error *error)
 {
+    reading_limit_begin(args);
     imp_scene *scene = read_scene(registry, args, complained, error);
+    reading_limit_end();
     query_warn(scene, args);
     return scene;
 }
@@ -361,6 +364,8 @@ imp_scene *query_scene(imp_registry *registry, const arguments *args, bool *comp
 exit_status query_answer_file(imp_registry *registry, const char *path, const arguments *args)
 {
     imp_error error = {0};
+    reading_limit_begin(args);
     imp_scene *scene = imp_scene_from_file(registry, path, &error);
+    reading_limit_end();
     return query_answer(scene, &error, args);
 }

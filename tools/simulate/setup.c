@@ -10,6 +10,7 @@
 #include "tools/cli/input.h"
 #include "tools/cli/json_memory.h"
 #include "tools/cli/query.h"
+#include "tools/cli/reading_limit.h"
 #include "tools/cli/verbs.h"
 #include "tools/simulate/actor.h"
 #include "tools/simulate/values.h"
@@ -120,7 +121,9 @@ exit_status setup_read(setup *s, const arguments *args)
     s->limits = limits_begin(arguments_number(args, "max-seconds", 0), 0);
     s->registry = query_registry(args);
     if (s->registry == NULL) return EXIT_DATA;
+    reading_limit_begin(args);
     exit_status status = read_text(s, args);
+    reading_limit_end();
     if (status != EXIT_ANSWERED) return status;
     s->options = query_options(s->still, args);
     s->limits.max_pairs = s->options.max_pairs;

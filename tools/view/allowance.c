@@ -5,10 +5,7 @@
 #include "tools/view/allowance.h"
 
 #include <math.h>
-#include <signal.h>
 #include <stdio.h>
-#include <string.h>
-#include <sys/time.h>
 #include <unistd.h>
 
 #include "core/common/clock.h"
@@ -92,36 +89,3 @@ void allowance_begin_drawing(allowance *l)
 {
     l->heard = l->interrupted != NULL && l->interrupted();
 }
-
-/* --- Reading ---------------------------------------------------------------------------------- */
-
-static char told[256];
-
-static void end_reading(int signal)
-{
-    (void)signal;
-    const ssize_t written = write(STDERR_FILENO, told, strlen(told));
-    _exit(written < 0 ? EXIT_DATA : EXIT_UNDECIDED);
-}
-
-static void set_alarm(double seconds)
-{
-    const struct itimerval when = {
-        .it_value = {(time_t)floor(seconds), (suseconds_t)(1e6 * (seconds - floor(seconds)))}};
-    setitimer(ITIMER_REAL, &when, NULL);
-}
-
-void allowance_watch_reading(const allowance *l, const char *verb)
-{
-    enum { LONGEST = 1000000000 }; /* seconds; longer limits set no alarm */
-    if (!(l->seconds > 0 && l->seconds < LONGEST)) return;
-    snprintf(told, sizeof told,
-             "impinge: %s: --max-seconds %g was over while the scene was read; allow more (0: no "
-             "limit)\n",
-             verb, l->seconds);
-    const struct sigaction action = {.sa_handler = end_reading};
-    sigaction(SIGALRM, &action, NULL);
-    set_alarm(allowance_left(l, 1));
-}
-
-void allowance_unwatch_reading(void) { set_alarm(0); }

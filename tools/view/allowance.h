@@ -49,9 +49,4 @@ imp_code allowance_check_bytes(allowance *l, size_t bytes, const char *what, imp
 /* Whether allowance_check returned an error; the verb's status is then EXIT_UNDECIDED. */
 bool allowance_ended(const allowance *l);
 
-/* Sets an alarm for reading a scene, which cannot be interrupted: when its time is over, the
- * program ends with the message and EXIT_UNDECIDED. */
-void allowance_watch_reading(const allowance *l, const char *verb);
-void allowance_unwatch_reading(void);
-
 #endif

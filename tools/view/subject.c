@@ -11,6 +11,7 @@
 #include "tools/cli/input.h"
 #include "tools/cli/interrupt.h"
 #include "tools/cli/query.h"
+#include "tools/cli/reading_limit.h"
 #include "tools/cli/verbs.h"
 #include "tools/view/nearest.h"
 #include "tools/view/recorded.h"
@@ -180,9 +181,9 @@ exit_status subject_read(subject *s, const arguments *args)
     if (status != EXIT_ANSWERED) return status;
     s->registry = query_registry(args);
     if (s->registry == NULL) return EXIT_DATA;
-    allowance_watch_reading(&s->allowance, args->verb->name);
+    reading_limit_begin(args);
     status = args->operand_count == 1 ? read_file(s, args) : read_pair(s, args);
-    allowance_unwatch_reading();
+    reading_limit_end();
     /* The text may be a result, which needs no search. */
     if (status != EXIT_ANSWERED || s->contact.gamma > 0) return status;
     return solve(s, args);
