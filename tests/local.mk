@@ -196,6 +196,7 @@ bats_suites = \
     tests/cli/memory.bats \
     tests/cli/python.bats \
     tests/cli/page.bats \
+    tests/cli/parameters.bats \
     tests/cli/series.bats \
     tests/cli/simulate.bats \
     tests/cli/simulate_rest.bats \

@@ -329,11 +329,12 @@ const scene_parameters *scene_parameters_read(const imp_scene *scene) { return &
 imp_code scene_refuse_parameters(const imp_scene *scene, const char *asker, imp_error *error)
 {
     if (scene->parameters.count == 0) return IMP_SUCCESS;
-    return error_set(error, IMP_ERROR_USAGE,
-                     "the scene has parameters ('%.80s'), and %s asks about one pose of them: ask "
-                     "about all values (imp_survey_new), or make the scene at some "
-                     "(imp_scene_at)",
-                     scene->parameters.at[0].name, asker);
+    return error_set(
+        error, IMP_ERROR_USAGE,
+        "the scene has parameters ('%.80s'), and %s asks about one pose: ask about all "
+        "values (impinge solve, impinge clearance; imp_survey_new), or about the "
+        "scene at some (imp_scene_at)",
+        scene->parameters.at[0].name, asker);
 }
 
 size_t imp_scene_parameter_count(const imp_scene *scene)

@@ -179,6 +179,15 @@ static exit_status read_interval(const option *row, const char *text, const char
     return EXIT_ANSWERED;
 }
 
+static exit_status read_range(const option *row, const char *text, const char *verb,
+                              double number[2])
+{
+    const char *equals = strchr(text, '=');
+    if (equals != NULL && equals > text && read_two(equals + 1, number)) return EXIT_ANSWERED;
+    return complain(EXIT_USAGE, verb, "--%s must be NAME=LO,HI, such as angle=0,1.5, not '%s'",
+                    row->name, text);
+}
+
 exit_status option_read(const option *row, const char *text, const char *verb, option_value *value)
 {
     *value = (option_value){.row = row, .text = text};
@@ -188,6 +197,8 @@ exit_status option_read(const option *row, const char *text, const char *verb, o
         return EXIT_ANSWERED;
     case OPTION_CHOICE:
         return read_choice(row, text, verb, &value->choice);
+    case OPTION_RANGE:
+        return read_range(row, text, verb, value->number);
     case OPTION_INTERVAL:
         return read_interval(row, text, verb, value->number);
     case OPTION_NUMBER:

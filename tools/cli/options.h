@@ -18,6 +18,7 @@ typedef enum option_kind {
     OPTION_BYTES,    /* whole number from 0; suffixes K, M, G: times 1024 */
     OPTION_INTERVAL, /* two finite numbers T0,T1 with T0 <= T1 */
     OPTION_CHOICE,   /* one of `choices` */
+    OPTION_RANGE,    /* NAME=LO,HI: a name without '=', two finite numbers */
     OPTION_TEXT      /* anything */
 } option_kind;
 
@@ -34,7 +35,7 @@ typedef struct option {
 typedef struct option_value {
     const option *row;
     const char *text; /* as written; NULL for flags */
-    double number[2]; /* OPTION_NUMBER: [0]; OPTION_INTERVAL: both */
+    double number[2]; /* OPTION_NUMBER: [0]; OPTION_INTERVAL, OPTION_RANGE: both */
     uint64_t count;   /* OPTION_COUNT, OPTION_BYTES */
     size_t choice;    /* OPTION_CHOICE: index */
 } option_value;

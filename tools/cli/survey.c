@@ -20,7 +20,7 @@
 
 const option options_parameters[] = {
     {.name = "parameter",
-     .kind = OPTION_TEXT,
+     .kind = OPTION_RANGE,
      .argument = "NAME=LO,HI",
      .help = "a parameter of the scene, or another range of one; as often as needed"},
     {.name = NULL}};
@@ -38,23 +38,6 @@ const option options_survey[] = {
 
 /* --- Parameters of the command line ----------------------------------------------------------- */
 
-/* Reads NAME=LO,HI; the name's length goes to *length. */
-static exit_status read_range(const char *text, size_t *length, double range[2],
-                              const arguments *args)
-{
-    const char *equals = strchr(text, '=');
-    char *end = NULL;
-    bool good = equals != NULL && equals > text;
-    if (good) range[0] = strtod(equals + 1, &end);
-    good = good && end != equals + 1 && *end == ',';
-    const char *second = good ? end + 1 : NULL;
-    if (good) range[1] = strtod(second, &end);
-    good = good && end != second && *end == '\0' && isfinite(range[0]) && isfinite(range[1]);
-    if (good) return *length = (size_t)(equals - text), EXIT_ANSWERED;
-    return complain(EXIT_USAGE, args->verb->name,
-                    "--parameter must be NAME=LO,HI, such as angle=0,1.5, not '%s'", text);
-}
-
 static exit_status set_parameters(json_t *scene, const arguments *args)
 {
     json_t *all = json_object_get(scene, "parameters");
@@ -64,22 +47,14 @@ static exit_status set_parameters(json_t *scene, const arguments *args)
             return complain_of_memory(args->verb->name);
     }
     for (size_t k = 0; k < args->value_count; ++k) {
-        size_t length = 0;
-        double range[2] = {0, 0};
-        char name[256];
-        if (strcmp(args->values[k].row->name, "parameter") != 0) continue;
-        const char *text = args->values[k].text;
-        const exit_status status = read_range(text, &length, range, args);
-        if (status != EXIT_ANSWERED) return status;
-        if (length >= sizeof name)
-            return complain(EXIT_USAGE, args->verb->name, "--parameter: the name is too long");
-        memcpy(name, text, length);
-        name[length] = '\0';
-        json_t *made = json_pack("[f,f]", range[0], range[1]);
-        if (!json_is_object(all))
-            json_decref(made); /* the reader complains */
-        else if (json_object_set_new(all, name, made) != 0)
-            return complain_of_memory(args->verb->name);
+        const option_value *value = &args->values[k];
+        if (strcmp(value->row->name, "parameter") != 0) continue;
+        if (!json_is_object(all)) return EXIT_ANSWERED; /* the reader complains */
+        char *name = strndup(value->text, (size_t)(strchr(value->text, '=') - value->text));
+        json_t *range = json_pack("[f,f]", value->number[0], value->number[1]);
+        const bool is_set = json_object_set_new(all, name, range) == 0; /* name may be NULL */
+        free(name);
+        if (!is_set) return complain_of_memory(args->verb->name);
     }
     return EXIT_ANSWERED;
 }
@@ -118,13 +93,11 @@ exit_status survey_check(const arguments *args)
         if (arguments_option(args, others[k]) != NULL)
             return complain(
                 EXIT_USAGE, args->verb->name,
-                "--%s does not go with parameters: the scene has some; leave the option "
-                "out, or give each parameter one value, without a range, by replacing "
-                "what follows it",
+                "--%s does not go with the parameters that the scene has; ask without it",
                 others[k]);
     if (arguments_choice(args, "method", 0) != 0)
         return complain(EXIT_USAGE, args->verb->name,
-                        "--method paper does not go with parameters: the scene has some");
+                        "--method paper does not go with the parameters that the scene has");
     return EXIT_ANSWERED;
 }
 

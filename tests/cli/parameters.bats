@@ -1,0 +1,113 @@
+#!/usr/bin/env bats
+# SPDX-FileCopyrightText: The Impinge authors
+# SPDX-License-Identifier: Apache-2.0
+
+# Scenes with parameters, on the command line.
+
+bats_require_minimum_version 1.5.0
+load "$top_srcdir/tests/support/cli_helper.bash"
+
+# Balls of radius 0.3 on two arms of length 1, whose shafts are 2.7 apart: 0.1 at the nearest.
+arms() {
+    cat <<END | tr -d '\n'
+{"gamma": 1e-3, "parameters": {"a": [-1, 1], "b": [-1, 1]}, "bodies": [
+{"name": "one", "surfaces": [{"type": "sphere", "radius": 0.3, "center": [1,0,0]}],
+"maps": [{"type": "rotate", "axis": [0,0,1], "rate": 1, "clock": "a"}]},
+{"name": "two", "surfaces": [{"type": "sphere", "radius": 0.3, "center": [-1,0,0]}],
+"maps": [{"type": "rotate", "axis": [0,0,1], "rate": 1, "clock": "b"},
+{"type": "translate", "offset": [[${1-2.7},${2-0,0}]]}]}]}
+END
+}
+
+# --- Answers ----------------------------------------------------------------------------------------
+
+@test "solve answers for all values, or names those of a contact" {
+    arms >arms.json
+    run -0 "$IMPINGE" solve arms.json --json
+    valid result
+    json '.verdict == "clear" and .parameters == null and .boxes > 0'
+    arms 2.55 >arms.json
+    run -0 "$IMPINGE" solve arms.json --json
+    valid result
+    json '.verdict == "contact" and .t == .t_lower and (.parameters | keys == ["a", "b"])'
+    json '.gap <= 1e-3 and (.parameters.a | . > -1 and . < 1)'
+    run -1 "$IMPINGE" solve arms.json --exit-code
+    [[ $output == *'contact at t = 0'*'values   a = '*', b = '* ]]
+}
+
+@test "two surfaces on the command line have parameters and clocks, too" {
+    run -0 "$IMPINGE" pair 'sphere ! translate velocity=1,0,0 clock=x' 'sphere center=3.5,0,0' \
+        --parameter x=0,1
+    [[ $output == clear* ]]
+    run -0 "$IMPINGE" pair 'sphere ! translate velocity=1,0,0 clock=x' 'sphere center=3.5,0,0' \
+        --parameter x=0,2 --json
+    valid result
+    json '.verdict == "contact" and .parameters.x >= 1.49 and .parameters.x <= 2'
+}
+
+@test "an option gives a parameter another range" {
+    arms 2.55 >arms.json
+    run -0 "$IMPINGE" solve arms.json --parameter a=0.6,1
+    [[ $output == clear* ]]
+}
+
+@test "clearance brackets the least of all values, and decides what is required" {
+    arms >arms.json
+    run -0 "$IMPINGE" clearance arms.json --tolerance 0.1 --json
+    valid clearance
+    json '.lower <= 0.1 and .lower >= 0.0899 and .upper >= 0.1 and (.parameters.a | fabs) < 0.5'
+    run -0 "$IMPINGE" clearance arms.json --require 0.08 --json
+    valid clearance
+    json '.verdict == "holds" and .parameters == null'
+    run -1 "$IMPINGE" clearance arms.json --require 0.12 --json
+    valid clearance
+    json '.verdict == "violated" and .parameters.b != null'
+}
+
+@test "an undecided answer names the share that is proved and the box that is left" {
+    arms >arms.json
+    run -3 "$IMPINGE" clearance arms.json --require 0.0999 --max-boxes 9 --json
+    valid clearance
+    json '.verdict == "undecided" and .proved > 0 and .proved < 1 and .boxes == 9'
+    json '.worst.parameters | keys == ["a", "b"]'
+    json '.worst.bodies == ["one", "two"]'
+}
+
+@test "boxes are written as they are proved, and cover the values" {
+    arms 2.9 '0,0],[-0.1,0,0' >arms.json # their shafts come nearer
+    run -0 "$IMPINGE" solve arms.json --gamma 0.05 --boxes boxes.jsonl --json
+    json '.verdict == "clear"'
+    jq -es 'length > 1 and all(.[]; .bodies == ["one", "two"] and
+        (.parameters | keys == ["a", "b"]) and (.verdict | IN("clear", "contact", "undecided")))' \
+        boxes.jsonl
+    jq -es 'map((.time[1] - .time[0]) * (.parameters.a | .[1] - .[0]) *
+        (.parameters.b | .[1] - .[0])) | add | . > 3.999 and . < 4.001' boxes.jsonl
+}
+
+# --- What does not go -------------------------------------------------------------------------------
+
+@test "what is wrong with parameters is refused with the cure" {
+    arms >arms.json
+    fails 2 "--parameter must be NAME=LO,HI, such as angle=0,1.5, not 'a=1'" \
+        "$IMPINGE" solve arms.json --parameter a=1
+    fails 4 '/parameters/b: got the range [1, 0]' "$IMPINGE" solve arms.json --parameter b=1,0
+    fails 4 'got "x", which is no parameter' "$IMPINGE" pair 'sphere ! rotate axis=0,0,1 rate=1 clock=x' sphere
+    for option in --each '--refine 1e-2,1e-3' '--proof p' --explain; do
+        # shellcheck disable=SC2086 # an option and its value
+        fails 2 'does not go with the parameters that the scene has' "$IMPINGE" solve arms.json $option
+    done
+    [ ! -e p ]
+}
+
+@test "a parameter that nobody follows is a warning" {
+    arms >arms.json
+    run -0 --separate-stderr "$IMPINGE" solve arms.json --parameter c=0,1
+    [[ $stderr == *"warning: no surface or map has the parameter 'c' as its clock"* ]]
+}
+
+@test "simulate refuses clocks" {
+    arms | sed 's/"name": "one"/"name": "one", "mass": 1/' >heavy.json
+    run ! --separate-stderr "$IMPINGE" simulate heavy.json -o out.json
+    [[ $stderr == *parameter* ]]
+    [ ! -e out.json ]
+}
