@@ -7,9 +7,7 @@
 #include <math.h>
 #include <string.h>
 
-#include "core/common/array.h"
-
-enum { U, V, T, VARIABLES, DEPTH_MAX = 400, REFINEMENTS = 96 };
+enum { DEPTH_MAX = 400, REFINEMENTS = 96 };
 
 /* --- Cells ------------------------------------------------------------------------------------ */
 
@@ -32,12 +30,6 @@ void cell_begin(const prover *p, cell *c)
 {
     for (int side = 0; side < 2; ++side)
         if (c->count[side] == 1) take_domain(p, c, side);
-}
-
-static double middle(double lo, double hi)
-{
-    const double mid = 0.5 * lo + 0.5 * hi;
-    return mid < lo ? lo : mid > hi ? hi : mid;
 }
 
 /* Sets the ends of both halves; false: the place is not inside. */
@@ -64,122 +56,7 @@ bool cell_split(const prover *p, const cell *c, const cut *by, cell half[2])
                  &half[1].lo[side][along]);
 }
 
-/* --- Enclosures ------------------------------------------------------------------------------- */
-
-static size_t mixed(const place *of, const box3 *where)
-{
-    uint64_t bits[2 * VARIABLES], sum = (uintptr_t)of->chain + 31 * of->maps + 977 * of->piece;
-    memcpy(bits, where, sizeof bits);
-    for (int j = 0; j < 2 * VARIABLES; ++j)
-        sum = (sum ^ bits[j] ^ bits[j] >> 29) * UINT64_C(0x9e3779b97f4a7c15);
-    return sum >> 32 & (KEPT - 1);
-}
-
-/* Encloses a box of a piece, or finds that again; another call may overwrite it. */
-static const kept *look(prover *p, const place *of, const box3 *where)
-{
-    kept *k = &p->kept[mixed(of, where)];
-    if (k->chain == of->chain && k->piece == of->piece && k->maps == of->maps &&
-        memcmp(&k->where, where, sizeof *where) == 0)
-        return k;
-    k->chain = of->chain;
-    k->piece = of->piece;
-    k->maps = of->maps;
-    k->where = *where;
-    for (int j = 0; j < VARIABLES; ++j) k->c[j] = middle(where->lo[j], where->hi[j]);
-    k->result = enclose(of, where, k->c, k->box, k->centre, &k->divide);
-    return k;
-}
-
-static box3 box_of(const cell *c, int side)
-{
-    return (box3){{c->lo[side][U], c->lo[side][V], c->t[0]},
-                  {c->hi[side][U], c->hi[side][V], c->t[1]}};
-}
-
-/* --- Shadows on an axis ----------------------------------------------------------------------- */
-
-/* Each side's own direction of an axis: n of A, -n of B. A line in time is subtracted, which both
- * sides have in common, so that it cancels. */
-typedef struct aim {
-    double n[3], slope, mid;
-} aim;
-
-/* n.x - slope (t - mid) over a box of one side. */
-typedef struct shadow {
-    double lo, hi;          /* bounds */
-    double value;           /* at the centre, about */
-    double size[VARIABLES]; /* how much it depends on each variable, about */
-} shadow;
-
-static jet along(const jet x[3], const double n[3])
-{
-    jet sum = jet_scale(&x[0], ld_interval_of(n[0]));
-    for (int i = 1; i < 3; ++i) {
-        const jet term = jet_scale(&x[i], ld_interval_of(n[i]));
-        sum = jet_add(&sum, &term);
-    }
-    return sum;
-}
-
-static double value_of(ld_interval x) { return ld_interval_mid(x); }
-
-static void subtract_line(jet *x, const aim *a, ld_interval t)
-{
-    const ld_interval slope = ld_interval_of(a->slope);
-    const ld_interval since = ld_interval_sub(t, ld_interval_of(a->mid));
-    x->v = ld_interval_sub(x->v, ld_interval_mul(slope, since));
-    x->d[T] = ld_interval_sub(x->d[T], slope);
-    x->on |= 1 << T;
-}
-
-/* Dependence on each variable by derivatives, about. No more is shared out among the variables than
- * what the values vary by; where derivatives have no bounds, it is shared by the variables' widths.
- */
-static void find_sizes(const jet *over, const jet *at, const double half[VARIABLES], shadow *s)
-{
-    const double most = over->v.hi - over->v.lo;
-    double sum = 0, width = 0;
-    for (int j = 0; j < VARIABLES; ++j) {
-        s->size[j] = fabs(value_of(at->d[j])) * half[j];
-        for (int k = 0; k < VARIABLES; ++k) {
-            const ld_interval bend = j <= k ? over->h[j][k] : over->h[k][j];
-            if (half[j] > 0 && half[k] > 0)
-                s->size[j] += 0.5 * ld_interval_mag(bend) * half[j] * half[k];
-        }
-        sum += s->size[j];
-        width += half[j];
-    }
-    for (int j = 0; j < VARIABLES && !(sum <= most); ++j)
-        s->size[j] = most * (sum < INFINITY ? s->size[j] / sum : half[j] / width);
-}
-
-static shadow cast(const kept *k, const aim *a)
-{
-    jet over = along(k->box, a->n), at = along(k->centre, a->n);
-    ld_interval offset[BOX_DIMS];
-    double half[VARIABLES];
-    for (int j = 0; j < VARIABLES; ++j) {
-        const ld_interval all = ld_interval_make(k->where.lo[j], k->where.hi[j]);
-        offset[j] = ld_interval_sub(all, ld_interval_of(k->c[j]));
-        half[j] = 0.5 * (all.hi - all.lo);
-    }
-    subtract_line(&over, a, ld_interval_make(k->where.lo[T], k->where.hi[T]));
-    subtract_line(&at, a, ld_interval_of(k->c[T]));
-    const ld_interval all = jet_values(&over, &at, offset);
-    shadow s = {all.lo, all.hi, value_of(at.v), {0, 0, 0}};
-    find_sizes(&over, &at, half, &s);
-    return s;
-}
-
-/* --- Areas ------------------------------------------------------------------------------------ */
-
-/* A box of a piece of one side, which may be divided while the other side is not. */
-struct area {
-    place of;
-    box3 where;
-    shadow s;
-};
+/* --- An axis ---------------------------------------------------------------------------------- */
 
 typedef enum outcome { APART, DIVIDE, STUCK } outcome;
 
@@ -191,31 +68,10 @@ static outcome fail(prover *p, const cell *c, double found, const char *why)
     return STUCK;
 }
 
-static const char left_open[] = "a formula leaves open what is there at these times";
-
-static bool add_area(prover *p, int side, const place *of, const box3 *where, const aim *a);
-
-static bool add_halves(prover *p, int side, const place *of, const box3 *where, const aim *a,
-                       const split *by)
+static box3 box_of(const cell *c, int side)
 {
-    box3 half[2] = {*where, *where};
-    half[0].hi[by->along] = half[1].lo[by->along] = by->at;
-    return add_area(p, side, of, &half[0], a) && add_area(p, side, of, &half[1], a);
-}
-
-/* False: p->why tells. */
-static bool add_area(prover *p, int side, const place *of, const box3 *where, const aim *a)
-{
-    const kept *k = look(p, of, where);
-    if (k->result == ENCLOSED_EMPTY) return true;
-    if (k->result == ENCLOSED_SPLIT)
-        return add_halves(p, side, of, where, a, &(split){k->divide.along, k->divide.at});
-    area *grown = array_reserve(p->areas[side], p->count[side], &p->room[side], sizeof *grown);
-    if (grown != NULL) p->areas[side] = grown;
-    p->why = grown == NULL ? "memory ran out" : left_open;
-    if (grown == NULL || k->result == ENCLOSED_UNSAID) return false;
-    grown[p->count[side]++] = (area){*of, *where, cast(k, a)};
-    return true;
+    return (box3){{c->lo[side][U], c->lo[side][V], c->t[0]},
+                  {c->hi[side][U], c->hi[side][V], c->t[1]}};
 }
 
 static box3 area_of(const prover *p, const cell *c, int side, size_t k, place *of)
@@ -225,40 +81,6 @@ static box3 area_of(const prover *p, const cell *c, int side, size_t k, place *o
     if (c->count[side] > 1) piece_box(of, &where);
     return where;
 }
-
-/* Divides an area along what it depends on most. False: it cannot be divided, or p->why tells. */
-static bool divide_area(prover *p, int side, size_t index, const aim *a)
-{
-    const area was = p->areas[side][index];
-    split by = {-1, 0};
-    for (int j = 0; j < VARIABLES; ++j) {
-        const double lo = was.where.lo[j], hi = was.where.hi[j], mid = middle(lo, hi);
-        if (!(lo < mid && mid < hi)) continue;
-        if (by.along < 0 || was.s.size[j] > was.s.size[by.along]) by = (split){j, mid};
-    }
-    if (by.along < 0) return false;
-    p->areas[side][index] = p->areas[side][--p->count[side]];
-    return add_halves(p, side, &was.of, &was.where, a, &by);
-}
-
-/* How far a side reaches in its own direction. */
-typedef struct reach {
-    double bound, value; /* of all boxes, and at their centres, about */
-    size_t worst;        /* the area that has the bound */
-} reach;
-
-static reach reach_of(const prover *p, int side)
-{
-    reach r = {-INFINITY, -INFINITY, 0};
-    for (size_t k = 0; k < p->count[side]; ++k) {
-        const shadow *s = &p->areas[side][k].s;
-        if (!(s->hi <= r.bound)) r.bound = s->hi, r.worst = k;
-        if (s->value > r.value) r.value = s->value;
-    }
-    return r;
-}
-
-/* --- An axis ---------------------------------------------------------------------------------- */
 
 static ld_interval length_of(const ld_interval x[3])
 {
@@ -277,10 +99,10 @@ static void take_aims(prover *p, const cell *c, const double n[3], aim a[2])
 {
     place of;
     const box3 where = area_of(p, c, 0, 0, &of);
-    const kept *k = look(p, &of, &where);
+    const kept *k = kept_look(p->kept, &of, &where);
     double slope = 0;
     for (int i = 0; i < 3 && k->result == ENCLOSED; ++i)
-        slope += n[i] * value_of(k->centre[i].d[T]);
+        slope += n[i] * ld_interval_mid(k->centre[i].d[T]);
     if (!(fabs(slope) < INFINITY)) slope = 0;
     for (int side = 0; side < 2; ++side) {
         const double sign = side == 0 ? 1 : -1;
@@ -298,14 +120,14 @@ typedef struct trial {
 
 static void take_trial(const prover *p, double limit, trial *tried)
 {
-    const reach a = reach_of(p, 0), b = reach_of(p, 1);
+    const reach a = areas_reach(&p->areas[0]), b = areas_reach(&p->areas[1]);
     const double most = -(a.value + b.value) - limit, low = -(a.bound + b.bound) - limit;
     tried->left = most > 0 ? low / most : -INFINITY;
     for (int side = 0; side < 2; ++side) {
         double lo = INFINITY, *size = tried->size[side];
         memset(size, 0, sizeof tried->size[side]);
-        for (size_t k = 0; k < p->count[side]; ++k) {
-            const shadow *s = &p->areas[side][k].s;
+        for (size_t k = 0; k < p->areas[side].count; ++k) {
+            const shadow *s = &p->areas[side].at[k].s;
             lo = proof_smaller(lo, s->lo);
             for (int j = 0; j < VARIABLES; ++j) size[j] = proof_larger(size[j], s->size[j]);
         }
@@ -331,26 +153,29 @@ static outcome try_axis(prover *p, const cell *c, const double n[3], trial *trie
     aim a[2];
     take_aims(p, c, n, a);
     for (int side = 0; side < 2; ++side) {
-        p->count[side] = 0;
+        p->areas[side].count = 0;
+        p->areas[side].memory = p->kept;
         for (size_t k = 0; k < c->count[side]; ++k) {
             place of;
             const box3 where = area_of(p, c, side, k, &of);
-            if (!add_area(p, side, &of, &where, &a[side])) return fail(p, c, INFINITY, p->why);
+            const char *why = areas_add(&p->areas[side], &of, &where, &a[side]);
+            if (why != NULL) return fail(p, c, INFINITY, why);
         }
     }
     take_trial(p, limit, tried);
     for (int step = 0;; ++step) {
-        if (p->count[0] == 0 || p->count[1] == 0) return APART; /* it does not exist */
-        const reach r[2] = {reach_of(p, 0), reach_of(p, 1)};
+        if (p->areas[0].count == 0 || p->areas[1].count == 0) return APART; /* it does not exist */
+        const reach r[2] = {areas_reach(&p->areas[0]), areas_reach(&p->areas[1])};
         const ld_interval sum =
             ld_interval_add(ld_interval_of(r[0].bound), ld_interval_of(r[1].bound));
         if (-sum.hi >= limit) return APART;
         const double most = -(r[0].value + r[1].value) - limit, low = -sum.hi - limit;
         if (!(most > 0) || is_hopeless(step, low, most)) return DIVIDE;
         const int side = r[1].bound - r[1].value > r[0].bound - r[0].value;
-        p->why = NULL;
-        if (!divide_area(p, side, r[side].worst, &a[side]))
-            return p->why != NULL ? fail(p, c, INFINITY, p->why) : DIVIDE;
+        bool divided;
+        const char *why = areas_divide(&p->areas[side], r[side].worst, &a[side], &divided);
+        if (why != NULL) return fail(p, c, INFINITY, why);
+        if (!divided) return DIVIDE;
     }
 }
 
@@ -360,7 +185,8 @@ static outcome try_axis(prover *p, const cell *c, const double n[3], trial *trie
 static void normal(const jet x[3], double n[3])
 {
     double u[3], v[3];
-    for (int i = 0; i < 3; ++i) u[i] = value_of(x[i].d[U]), v[i] = value_of(x[i].d[V]);
+    for (int i = 0; i < 3; ++i)
+        u[i] = ld_interval_mid(x[i].d[U]), v[i] = ld_interval_mid(x[i].d[V]);
     for (int i = 0; i < 3; ++i) {
         const int j = (i + 1) % 3, l = (i + 2) % 3;
         n[i] = u[j] * v[l] - u[l] * v[j];
@@ -375,9 +201,9 @@ static void centre_of(prover *p, const cell *c, int side, double x[3])
     for (size_t k = 0; k < count; k += step) {
         place of;
         const box3 where = area_of(p, c, side, k, &of);
-        const kept *at = look(p, &of, &where);
+        const kept *at = kept_look(p->kept, &of, &where);
         for (int i = 0; i < 3 && at->result == ENCLOSED; ++i) {
-            const double v = value_of(at->centre[i].v);
+            const double v = ld_interval_mid(at->centre[i].v);
             if (v < lo[i]) lo[i] = v;
             if (v > hi[i]) hi[i] = v;
         }
@@ -398,7 +224,7 @@ static void find_axes(prover *p, const cell *c, double n[AXES][3])
         double *m = n[2 + side];
         place of;
         const box3 where = area_of(p, c, side, 0, &of);
-        const kept *k = look(p, &of, &where);
+        const kept *k = kept_look(p->kept, &of, &where);
         memset(m, 0, sizeof n[0]);
         if (c->count[side] == 1 && k->result == ENCLOSED) normal(k->centre, m);
         const double sign = m[0] * n[1][0] + m[1] * n[1][1] + m[2] * n[1][2];
@@ -442,17 +268,17 @@ static outcome look_at_pieces(prover *p, const cell *c, cut *by, double *found)
     for (int side = 0; side < 2; ++side) {
         place of;
         const box3 where = area_of(p, c, side, 0, &of);
-        const kept *k = look(p, &of, &where);
+        const kept *k = kept_look(p->kept, &of, &where);
         const split *parts = &k->divide;
         if (k->result == ENCLOSED_EMPTY) return APART;
-        if (k->result == ENCLOSED_UNSAID) return fail(p, c, INFINITY, left_open);
+        if (k->result == ENCLOSED_UNSAID) return fail(p, c, INFINITY, shadow_left_open);
         *by = (cut){parts->along == T ? 2 : side, parts->along % T, parts->at};
         if (k->result == ENCLOSED_SPLIT) return DIVIDE;
         for (int i = 0; i < 3; ++i) x[side][i] = k->centre[i].v;
     }
     for (int i = 0; i < 3; ++i) x[0][i] = ld_interval_sub(x[1][i], x[0][i]);
     const ld_interval length = length_of(x[0]);
-    *found = value_of(length);
+    *found = ld_interval_mid(length);
     by->side = -1;
     return length.hi < p->apart ? fail(p, c, *found, "two points of it are nearer") : DIVIDE;
 }

@@ -3,7 +3,7 @@
 #ifndef TOOLS_VERIFY_APART_H
 #define TOOLS_VERIFY_APART_H
 
-#include "tools/verify/enclose.h"
+#include "tools/verify/shadow.h"
 
 /* Cells in which two surfaces are proved to be apart */
 
@@ -15,21 +15,6 @@ typedef struct cell {
     double t[2];
 } cell;
 
-enum { KEPT = 1024 }; /* a power of 2 */
-
-/* An enclosure that was computed before. */
-typedef struct kept {
-    const chain *chain; /* NULL: none */
-    size_t piece, maps;
-    box3 where;
-    enclosed result;
-    split divide;
-    double c[3];
-    jet box[3], centre[3]; /* about the point c */
-} kept;
-
-typedef struct area area;
-
 typedef struct prover {
     place side[2];
     const uint32_t *order[2]; /* NULL: the pieces' own */
@@ -37,9 +22,8 @@ typedef struct prover {
     unsigned long tests, tests_most; /* of this leaf */
     double axis[3];                  /* hint; 0: none */
     kept *kept;                      /* KEPT of them */
-    area *areas[2];                  /* boxes of either side, to be freed */
-    size_t count[2], room[2];
-    cell worst;      /* where it ended, and */
+    areas areas[2];                  /* of either side; to be freed */
+    cell worst;                      /* where it ended, and */
     double found;    /* what was found there: two points so near, or INFINITY: nothing but */
     const char *why; /* this */
 } prover;

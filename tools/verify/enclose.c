@@ -6,8 +6,6 @@
 
 #include <math.h>
 
-enum { U, V, T, VARIABLES };
-
 /* --- Parts ------------------------------------------------------------------------------------ */
 
 static bool holds(const part *p, const box3 *b)

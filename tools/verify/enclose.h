@@ -10,6 +10,8 @@
  * The formulas of a chain, composed, as jets of u, v and t. A formula may consist of parts with
  * domains of their own: a box in none of them is divided where a part begins or ends. */
 
+enum { U, V, T, VARIABLES };
+
 typedef enum enclosed {
     ENCLOSED,
     ENCLOSED_EMPTY, /* the surface does not exist there */

@@ -196,7 +196,7 @@ static bool take_pair(walk *w, size_t a, size_t b, const work *room)
     good = good && take_entry(&p, &c, 0);
     for (int side = 0; side < 2; ++side) {
         free(p.order[side]);
-        free(p.prover.areas[side]);
+        free(p.prover.areas[side].at);
     }
     return good;
 }
