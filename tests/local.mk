@@ -84,6 +84,7 @@ check_suites = \
 
 # The same, with MPFI as the judge of bounds; the longest first.
 mpfi_suites = \
+    tests/fuzz/certificate \
     tests/unit/test_certificates \
     tests/unit/test_plugins \
     tests/unit/test_checker \
@@ -468,6 +469,9 @@ tests_fuzz_elf_SOURCES = tests/fuzz/elf.c tests/fuzz/elf_changes.c tests/fuzz/el
     tests/fuzz/replay.c tests/fuzz/fuzz.h
 tests_fuzz_api_SOURCES = tests/fuzz/api.c tests/fuzz/replay.c tests/fuzz/fuzz_registry.h
 tests_fuzz_cache_SOURCES = tests/fuzz/cache.c tests/fuzz/replay.c tests/fuzz/fuzz_mutate.h
+tests_fuzz_certificate_SOURCES = tests/fuzz/certificate.c tests/fuzz/replay.c
+tests_fuzz_certificate_CPPFLAGS = $(AM_CPPFLAGS) -DPROOF_DOUBLE
+tests_fuzz_certificate_LDADD = tools/libverify.la $(LDADD)
 tests_fuzz_csv_SOURCES = tests/fuzz/csv.c tests/fuzz/replay.c
 tests_fuzz_csv_LDADD = plugins/libcommon.la $(LDADD)
 tests_fuzz_mesh_SOURCES = tests/fuzz/mesh.c tests/fuzz/replay.c
@@ -486,7 +490,12 @@ tests_fuzz_scene_SOURCES = tests/fuzz/scene.c tests/fuzz/scene_judge.c tests/fuz
 
 # What tests/fuzz/run builds: libraries that tell libFuzzer what runs, and plugins that do not.
 .PHONY: fuzz-libraries fuzz-plugins
-fuzz-libraries: core/libcore.la tools/libproof.la plugins/libexpression.la plugins/libcommon.la \
+fuzz_verify =
+if HAVE_MPFI
+fuzz_verify += tools/libverify.la
+endif
+fuzz-libraries: core/libcore.la tools/libproof.la $(fuzz_verify) plugins/libexpression.la \
+    plugins/libcommon.la \
     plugins/libmesh.la plugins/libsubdivision.la plugins/libpatch.la tools/libtools.a \
     tools/built-data/page.html $(plugin_LTLIBRARIES)
 fuzz-plugins: $(check_LTLIBRARIES)
@@ -506,6 +515,14 @@ EXTRA_DIST += \
     tests/fuzz/cache.d/tabs \
     tests/fuzz/cache.d/two_lines \
     tests/fuzz/cache.dict \
+    tests/fuzz/certificate.d/balls \
+    tests/fuzz/certificate.d/bowl \
+    tests/fuzz/certificate.d/huge \
+    tests/fuzz/certificate.d/many_splits \
+    tests/fuzz/certificate.d/parts \
+    tests/fuzz/certificate.d/roofs \
+    tests/fuzz/certificate.d/unsaid \
+    tests/fuzz/certificate.dict \
     tests/fuzz/csv.d/blanks \
     tests/fuzz/csv.d/by_name \
     tests/fuzz/csv.d/empty \
