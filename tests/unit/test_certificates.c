@@ -301,7 +301,8 @@ static bool is_false(const statement *s, uint64_t *seed)
         box3 all[2];
         place on[2];
         for (size_t k = 0; k < 2; ++k) {
-            on[k] = (place){s, &s->chains[k], draw_piece(s, k, seed), s->chains[k].count - 1, room};
+            on[k] = (place){s,    &s->chains[k], draw_piece(s, k, seed), s->chains[k].count - 1,
+                            room, NULL};
             if (draw >= 60 && best < INFINITY) on[k] = best_place[k];
             piece_box(&on[k], &all[k]);
         }

@@ -13,18 +13,44 @@
 
 static jet computed(const jet *value, const step *s, int n);
 
-/* Computes the steps that depend on no variable. */
-static void fold(formula *f, jet *value)
+static bool is_number(const formula *f, int k, double number)
+{
+    return f->steps[k].kind == STEP_CONSTANT && ld_interval_is(f->steps[k].constant, number);
+}
+
+/* The step whose value a sum with 0 or a product with 1 has, or -1. */
+static int same_as(const formula *f, const step *s)
+{
+    const int a = s->operand[0], b = s->operand[1];
+    const bool sum = s->kind == STEP_ADD, product = s->kind == STEP_MULTIPLY;
+    if ((sum && is_number(f, a, 0)) || (product && is_number(f, a, 1))) return b;
+    if (((sum || s->kind == STEP_SUBTRACT) && is_number(f, b, 0)) ||
+        ((product || s->kind == STEP_DIVIDE) && is_number(f, b, 1)))
+        return a;
+    return -1;
+}
+
+/* Computes the steps that depend on no variable, and leaves out sums with 0 and products with 0 or
+ * 1, which rotations about x, y or z are full of. place[k]: the step that has the value of step
+ * k. */
+static void fold(formula *f, jet *value, int *place)
 {
     for (int k = 0; k < f->count; ++k) {
         step *s = &f->steps[k];
         bool is_fixed = s->kind != STEP_VARIABLE;
-        for (int i = 0; i < s->count; ++i)
+        for (int i = 0; i < s->count; ++i) {
+            s->operand[i] = place[s->operand[i]];
             is_fixed = is_fixed && f->steps[s->operand[i]].kind == STEP_CONSTANT;
-        if (!is_fixed) continue;
-        value[k] = computed(value, s, 0);
-        *s = (step){.kind = STEP_CONSTANT, .constant = value[k].v};
+        }
+        const int same = is_fixed || s->count != 2 ? -1 : same_as(f, s);
+        place[k] = same >= 0 ? same : k;
+        if (is_fixed) value[k] = computed(value, s, 0);
+        if (s->kind == STEP_MULTIPLY &&
+            (is_number(f, s->operand[0], 0) || is_number(f, s->operand[1], 0)))
+            value[k] = jet_constant(0, ld_interval_of(0)), is_fixed = true;
+        if (is_fixed) *s = (step){.kind = STEP_CONSTANT, .constant = value[k].v};
     }
+    for (int i = 0; i < 3; ++i) f->out[i] = place[f->out[i]];
 }
 
 /* Drops the steps that no coordinate needs. place[k]: where step k goes. */
@@ -55,6 +81,15 @@ static bool is_linear(const formula *f, const step *s)
            (s->kind == STEP_MULTIPLY && (by[0] || by[1])) || (s->kind == STEP_DIVIDE && by[1]);
 }
 
+static void mark_uses(formula *f)
+{
+    for (int k = 0; k < f->count; ++k) {
+        step *s = &f->steps[k];
+        s->uses = s->kind == STEP_VARIABLE ? 1u << s->operand[0] : 0;
+        for (int i = 0; i < s->count; ++i) s->uses |= f->steps[s->operand[i]].uses;
+    }
+}
+
 static void mark_narrowed(formula *f)
 {
     for (int i = 0; i < 3; ++i) f->steps[f->out[i]].is_narrowed = true;
@@ -73,8 +108,9 @@ static bool shorten(formula *f)
     int *place = malloc((size_t)f->count * sizeof *place);
     const bool has_room = value != NULL && place != NULL;
     if (has_room) {
-        fold(f, value);
+        fold(f, value, place);
         drop_unneeded(f, place);
+        mark_uses(f);
         mark_narrowed(f);
     }
     free(value);
@@ -198,6 +234,7 @@ void formula_jets_about(const formula *f, const formula_boxes *given, jet *value
     jet *wide = value, *at = value + f->count;
     for (int k = 0; k < f->count; ++k) {
         const step *s = &f->steps[k];
+        if (!given->is_first && (s->uses & given->changed) == 0) continue;
         if (s->kind == STEP_VARIABLE) {
             wide[k] = given->box[s->operand[0]];
             at[k] = given->centre[s->operand[0]];

@@ -66,6 +66,8 @@ void formula_jets_in(const formula *f, const jet *variables, jet *value, jet out
 typedef struct formula_boxes {
     const jet *box, *centre; /* of the latter no second derivatives are needed */
     const ld_interval *offset;
+    bool is_first;    /* false: `value` is that of another call with the formula, from which only */
+    unsigned changed; /* these variables differ, a bit for each */
 } formula_boxes;
 
 /* Like formula_jets_in, over the box and at the point, with room for twice as many steps. The

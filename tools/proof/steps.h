@@ -35,6 +35,7 @@ typedef struct step {
     int operand[3], count; /* earlier steps; of STEP_VARIABLE, its index */
     double number;
     ld_interval constant;
+    unsigned uses;    /* bit j: it depends on variable j */
     bool is_narrowed; /* by formula_jets_about: it is a coordinate, or what uses it is not linear */
     jet_function *function;
 } step;

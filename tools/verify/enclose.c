@@ -5,6 +5,7 @@
 #include "tools/verify/enclose.h"
 
 #include <math.h>
+#include <stdlib.h>
 
 /* --- Parts ------------------------------------------------------------------------------------ */
 
@@ -65,6 +66,32 @@ static const piece *piece_of(const place *p, size_t stage_index)
     return &g->pieces[stage_index == 0 ? p->piece : 0];
 }
 
+/* Computes a formula of an instance; steps that depend only on what was the same the last time are
+ * not computed again: most of a motion is a matter of time alone. */
+static void compute(const place *p, size_t stage_index, const formula *f, const box3 *where,
+                    const double at[3], formula_boxes *given, jet out[3], jet centre[3])
+{
+    memo unkept = {.value = p->room}, *m = &unkept;
+    if (p->memos != NULL) m = &p->memos[p->chain->stages[stage_index]];
+    given->is_first = m->of != f;
+    given->changed = stage_index > 0 ? 7 : 0; /* x, y, z */
+    for (int j = 0; j < VARIABLES; ++j) {
+        const bool same =
+            m->where.lo[j] == where->lo[j] && m->where.hi[j] == where->hi[j] && m->at[j] == at[j];
+        if (!same && stage_index == 0) given->changed |= 1u << j;
+        if (!same && stage_index > 0 && j == T) given->changed |= 8;
+    }
+    if (given->is_first && m != &unkept) {
+        jet *grown = realloc(m->value, 2 * (size_t)formula_steps(f) * sizeof *grown);
+        if (grown == NULL) m = &unkept;
+        if (grown != NULL) m->value = grown;
+    }
+    m->of = f;
+    m->where = *where;
+    for (int j = 0; j < VARIABLES; ++j) m->at[j] = at[j];
+    formula_jets_about(f, given, m->value, out, centre);
+}
+
 enclosed enclose(const place *p, const box3 *where, const double at[3], jet out[3], jet centre[3],
                  split *divide)
 {
@@ -77,19 +104,19 @@ enclosed enclose(const place *p, const box3 *where, const double at[3], jet out[
         narrow[j].bends = 0;
         offset[j] = ld_interval_sub(all, ld_interval_of(at[j]));
     }
-    const formula_boxes given = {wide, narrow, offset};
+    formula_boxes given = {wide, narrow, offset, true, 0};
     const part *found;
     enclosed result = choose(piece_of(p, 0), where, &found, divide);
     if (result == ENCLOSED_EMPTY && touches_end(p, piece_of(p, 0), where)) return ENCLOSED_UNSAID;
     if (result != ENCLOSED) return result;
-    formula_jets_about(found->f, &given, p->room, out, centre);
+    compute(p, 0, found->f, where, at, &given, out, centre);
     wide[3] = wide[T], narrow[3] = narrow[T];
     const box3 times = {{-INFINITY, -INFINITY, where->lo[T]}, {INFINITY, INFINITY, where->hi[T]}};
     for (size_t k = 1; k <= p->maps; ++k) {
         for (int i = 0; i < 3; ++i) wide[i] = out[i], narrow[i] = centre[i];
         result = choose(piece_of(p, k), &times, &found, divide);
         if (result != ENCLOSED) return result == ENCLOSED_EMPTY ? ENCLOSED_UNSAID : result;
-        formula_jets_about(found->f, &given, p->room, out, centre);
+        compute(p, k, found->f, where, at, &given, out, centre);
     }
     return ENCLOSED;
 }

@@ -28,11 +28,20 @@ typedef struct split {
     double at;
 } split;
 
+/* The steps of the formula of an instance that was computed last, and for what. */
+typedef struct memo {
+    const formula *of; /* NULL: none */
+    jet *value;        /* to be freed */
+    box3 where;
+    double at[3];
+} memo;
+
 typedef struct place {
     const statement *of;
     const chain *chain;
     size_t piece, maps; /* maps that are applied: the first ones */
     jet *room;          /* for twice the steps of any formula */
+    memo *memos;        /* of each instance; NULL: nothing is kept */
 } place;
 
 /* Computes x, y and z over the box, and at a point of it, there without second derivatives. */

@@ -165,6 +165,7 @@ static void note_assumed(walk *w, const chain *c)
 typedef struct work {
     jet *steps;
     kept *kept;
+    memo *memos;
 } work;
 
 static bool take_pair(walk *w, size_t a, size_t b, const work *room)
@@ -179,7 +180,8 @@ static bool take_pair(walk *w, size_t a, size_t b, const work *room)
     if (input_count(w->in, UINT32_MAX) != a || input_count(w->in, UINT32_MAX) != b)
         return input_refuse(w->in, "the tree of surfaces %zu and %zu is not here", a, b);
     for (int side = 0; side < 2; ++side) {
-        p.prover.side[side] = (place){.of = s, .chain = p.chain[side], .room = room->steps};
+        p.prover.side[side] =
+            (place){.of = s, .chain = p.chain[side], .room = room->steps, .memos = room->memos};
         c.count[side] = s->stages[p.chain[side]->stages[0]].count;
         if (!p.is_said) note_assumed(w, p.chain[side]);
         if (c.count[side] == 0) return input_refuse(w->in, "a surface has no pieces");
@@ -226,8 +228,9 @@ bool walk_trees(walk *w)
     const statement *s = w->says;
     size_t *first = malloc((s->body_count + 1) * sizeof *first);
     const work room = {malloc((2 * (size_t)s->steps + 1) * sizeof *room.steps),
-                       calloc(KEPT, sizeof *room.kept)};
-    bool good = first != NULL && room.steps != NULL && room.kept != NULL;
+                       calloc(KEPT, sizeof *room.kept),
+                       calloc(s->stage_count + 1, sizeof *room.memos)};
+    bool good = first != NULL && room.steps != NULL && room.kept != NULL && room.memos != NULL;
     if (!good) input_refuse(w->in, "memory ran out");
     good = good && find_first(w, first);
     for (size_t a = 0; a < s->body_count && good; ++a)
@@ -236,6 +239,8 @@ bool walk_trees(walk *w)
     free(first);
     free(room.steps);
     free(room.kept);
+    for (size_t k = 0; k < s->stage_count && room.memos != NULL; ++k) free(room.memos[k].value);
+    free(room.memos);
     return good && input_end(w->in);
 }
 
@@ -249,7 +254,7 @@ static bool find_point(walk *w, int k, jet *room, ld_interval x[3])
     const chain *c = &s->chains[q->chain];
     if (q->piece >= s->stages[c->stages[0]].count)
         return input_refuse(w->in, "a point is on no piece");
-    const place p = {s, c, q->piece, c->count - 1, room};
+    const place p = {s, c, q->piece, c->count - 1, room, NULL};
     const box3 where = {{q->u, q->v, s->t}, {q->u, q->v, s->t}};
     jet out[3], same[3];
     split unused;
