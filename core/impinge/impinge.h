@@ -534,7 +534,7 @@ typedef struct imp_options {
     double gamma_clear;    /* in [0, gamma), length: nothing nearer is missed; < 0: gamma / 2 */
     uint64_t max_pairs;    /* pairs tested; 0: no limit */
     double max_seconds;    /* wall clock; 0: no limit */
-    uint64_t max_bytes;    /* memory of scene, trees and heap; 0: no limit */
+    uint64_t max_bytes;    /* memory of scene, trees, heap and solids; 0: no limit */
     uint32_t baseline;     /* 0; else by the algorithm of 1990: <impinge/baseline.h> */
     uint32_t reserved;     /* 0 */
     imp_progress_sink progress; /* NULL: none */

@@ -102,10 +102,16 @@ static void number_sets(components *c, size_t count, size_t *up)
     }
 }
 
+static size_t slots_for(size_t count)
+{
+    size_t slots = 16;
+    while (slots < 8 * count) slots *= 2;
+    return slots;
+}
+
 static bool join_all(components *c, size_t count, double near)
 {
-    cells table = {.slots = 16};
-    while (table.slots < 8 * count) table.slots *= 2;
+    cells table = {.slots = slots_for(count)};
     size_t *up = malloc((count + 1) * sizeof *up);
     table.key = malloc(table.slots * sizeof *table.key);
     table.patch = malloc(table.slots * sizeof *table.patch);
@@ -120,6 +126,14 @@ static bool join_all(components *c, size_t count, double near)
 }
 
 /* --- All -------------------------------------------------------------------------------------- */
+
+size_t components_bytes(size_t count)
+{
+    const cells *table = NULL;
+    const components *c = NULL;
+    return count * (sizeof *c->samples + 2 * sizeof *c->of) +
+           slots_for(count) * (sizeof *table->key + sizeof *table->patch);
+}
 
 imp_code components_find(components *c, const patches *p, double near, imp_error *error)
 {

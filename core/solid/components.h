@@ -31,4 +31,7 @@ typedef struct components {
 imp_code components_find(components *c, const patches *p, double near, imp_error *error);
 void components_free(components *c);
 
+/* Returns the most memory that components_find takes. */
+size_t components_bytes(size_t count);
+
 #endif

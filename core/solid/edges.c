@@ -33,6 +33,12 @@ static imp_code read_patch(edges *e, size_t index, imp_error *error)
     return code;
 }
 
+size_t edges_bytes(size_t count)
+{
+    const size_t links = 3; /* to the first edge of a bucket, of which there are up to 2 an edge */
+    return 4 * count * ((size_t)(steps_for(count) + 1) * sizeof(vec3) + links * sizeof(size_t));
+}
+
 imp_code edges_read(edges *e, const patches *p, double slack, imp_error *error)
 {
     *e = (edges){.patches = p,

@@ -27,6 +27,9 @@ typedef struct edges {
 imp_code edges_read(edges *e, const patches *p, double slack, imp_error *error);
 void edges_free(edges *e);
 
+/* Returns the most memory that edges_read and edges_match take. */
+size_t edges_bytes(size_t count);
+
 static inline const vec3 *edge_points(const edges *e, size_t i)
 {
     return e->at + i * (size_t)(e->steps + 1);

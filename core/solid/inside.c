@@ -24,8 +24,11 @@
 struct inside_search {
     inside_plan plan;
     size_t bodies;
-    double t;       /* of the solids */
-    solid **solids; /* by body; NULL: not made yet, or it has nothing at that time */
+    double t;         /* of the solids */
+    bool *is_counted; /* by body: whether its solid is among `kept` */
+    size_t kept;      /* bytes of all solids */
+    size_t counted;   /* bytes that callers know of */
+    solid **solids;   /* by body; NULL: not made yet, or it has nothing at that time */
 };
 
 inside_search *inside_new(const inside_plan *plan)
@@ -34,7 +37,10 @@ inside_search *inside_new(const inside_plan *plan)
     if (s == NULL) return NULL;
     *s = (inside_search){.plan = *plan, .bodies = scene_body_count(plan->scene), .t = NAN};
     s->solids = calloc(s->bodies + 1, sizeof *s->solids);
-    if (s->solids != NULL) return s;
+    s->is_counted = calloc(s->bodies + 1, sizeof *s->is_counted);
+    if (s->solids != NULL && s->is_counted != NULL) return s;
+    free(s->solids);
+    free(s->is_counted);
     free(s);
     return NULL;
 }
@@ -52,6 +58,7 @@ void inside_free(inside_search *s)
     if (s == NULL) return;
     forget_solids(s);
     free(s->solids);
+    free(s->is_counted);
     free(s);
 }
 
@@ -216,6 +223,24 @@ static imp_code look_into(inside_search *s, size_t outer, size_t inner, double t
     return code;
 }
 
+/* Counts the memory that looking into a solid may take: that of all solids that were made, of the
+ * reading of this one, and of the inner body's parts. False: that is much more than was counted. */
+static bool count_bytes(inside_search *s, size_t outer, size_t inner, tree_growth *growth)
+{
+    enum { MUCH = 1 << 16 };
+    const size_t of_outer = solid_patches_most(s->plan.scene, outer);
+    const size_t of_inner = solid_patches_most(s->plan.scene, inner);
+    if (!s->is_counted[outer]) s->kept += solid_bytes(of_outer);
+    s->is_counted[outer] = true;
+    const size_t bytes = s->kept + solid_shells_bytes(of_outer) + of_inner * sizeof(patch) +
+                         components_bytes(of_inner);
+    if (bytes <= s->counted) return true;
+    const size_t more = bytes - s->counted;
+    s->counted = bytes;
+    growth->bytes += more;
+    return more < MUCH;
+}
+
 imp_code inside_find(inside_search *s, const size_t body[2], double t, inside_answer *answer,
                      tree_growth *growth, imp_error *error)
 {
@@ -231,6 +256,10 @@ imp_code inside_find(inside_search *s, const size_t body[2], double t, inside_an
     if (solid_boxes_apart(&box[0], &box[1])) return IMP_SUCCESS;
     for (int k = 0; k < 2; ++k) {
         if (!scene_is_solid(s->plan.scene, body[k])) continue;
+        if (!count_bytes(s, body[k], body[1 - k], growth)) {
+            answer->state = INSIDE_STOPPED;
+            return IMP_SUCCESS;
+        }
         const imp_code code = look_into(s, body[k], body[1 - k], t, &box[k], answer, error);
         if (code != IMP_SUCCESS || answer->state == INSIDE_STOPPED) return code;
         if (answer->state == INSIDE_FOUND) {

@@ -29,7 +29,7 @@ typedef enum inside_state {
     INSIDE_NOBODY,  /* unless surfaces of the two are nearer than gamma_clear then */
     INSIDE_FOUND,   /* and nothing else is said of the surfaces */
     INSIDE_UNKNOWN, /* a part is so near to the solid's surfaces that models do not tell */
-    INSIDE_STOPPED  /* by the watch; ask again */
+    INSIDE_STOPPED /* by the watch, or since much memory is needed, which is now counted; ask again */
 } inside_state;
 
 typedef struct inside_answer {
@@ -37,7 +37,8 @@ typedef struct inside_answer {
     imp_side side[2]; /* FOUND: of the two bodies, in the order asked for; the solid's u is NAN */
 } inside_answer;
 
-/* What trees it makes is added to *growth. Fails where a body that is solid is not closed, with
+/* What trees it makes is added to *growth, and what it will need itself before that is taken, so
+ * that the caller can end it. Fails where a body that is solid is not closed, with
  * IMP_ERROR_SCENE, and as plugins do. */
 imp_code inside_find(inside_search *s, const size_t body[2], double t, inside_answer *answer,
                      tree_growth *growth, imp_error *error);

@@ -101,14 +101,20 @@ static imp_code measure(patches *p, imp_error *error)
     return IMP_SUCCESS;
 }
 
+size_t solid_patches_most(const imp_scene *scene, size_t body)
+{
+    size_t count = 0;
+    for (size_t k = 0; k < scene_surface_count(scene, body); ++k)
+        count += surface_piece_count(scene_surface(scene, body, k)) + 1;
+    return count;
+}
+
 imp_code solid_patches_read(patches *p, const imp_scene *scene, size_t body, double t,
                             imp_error *error)
 {
     const size_t surfaces = scene_surface_count(scene, body);
-    size_t count = 0;
-    for (size_t k = 0; k < surfaces; ++k)
-        count += surface_piece_count(scene_surface(scene, body, k)) + 1;
-    *p = (patches){.t = t, .bounded = true, .patch = calloc(count + 1, sizeof *p->patch)};
+    const size_t most = solid_patches_most(scene, body);
+    *p = (patches){.t = t, .bounded = true, .patch = calloc(most + 1, sizeof *p->patch)};
     if (p->patch == NULL) return error_set_memory(error);
     for (size_t k = 0; k < surfaces; ++k) {
         const surface *s = scene_surface(scene, body, k);

@@ -31,6 +31,9 @@ imp_code solid_patches_read(patches *p, const imp_scene *scene, size_t body, dou
                             imp_error *error);
 void solid_patches_free(patches *p);
 
+/* Returns how many patches a body has at most. */
+size_t solid_patches_most(const imp_scene *scene, size_t body);
+
 /* Evaluates n points (u, v) of a patch, at most PATCH_POINTS_MAX. `errors` may be NULL, or takes
  * bounds of each point's distance from the exact one; length. Fails as the plugin does. */
 enum { PATCH_POINTS_MAX = 129 };

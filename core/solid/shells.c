@@ -166,6 +166,14 @@ static imp_code find_within(shells *s, const patches *p, double slack, const lim
     return code;
 }
 
+size_t solid_shells_bytes(size_t count)
+{
+    const joining *j = NULL;
+    const shells *s = NULL;
+    return edges_bytes(count) + count * (sizeof *j->l.up + sizeof *j->l.sign +
+                                         4 * sizeof *j->partner + sizeof *s->facing);
+}
+
 #define FINE_SLACK 1e-9 /* part of the body's size within which points are the same */
 
 imp_code solid_shells_find(shells *s, const patches *p, double slack, const limit_watch *watch,

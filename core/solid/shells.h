@@ -31,4 +31,7 @@ imp_code solid_shells_find(shells *s, const patches *p, double slack, const limi
                            imp_closure *closure, imp_error *error);
 void solid_shells_free(shells *s);
 
+/* Returns the most memory that solid_shells_find takes. */
+size_t solid_shells_bytes(size_t count);
+
 #endif

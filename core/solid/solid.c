@@ -15,6 +15,13 @@
 
 /* --- Creation and destruction ----------------------------------------------------------------- */
 
+size_t solid_bytes(size_t count)
+{
+    const solid *s = NULL;
+    return sizeof *s +
+           count * (sizeof *s->patches.patch + sizeof *s->shells.facing + 2 * sizeof *s->boxes);
+}
+
 imp_code solid_new(const imp_scene *scene, size_t body, double t, double slack,
                    const limit_watch *watch, solid **made, imp_error *error)
 {

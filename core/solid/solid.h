@@ -30,6 +30,10 @@ imp_code solid_new(const imp_scene *scene, size_t body, double t, double slack,
                    const limit_watch *watch, solid **made, imp_error *error);
 void solid_free(solid *s); /* NULL is none */
 
+/* Returns the most memory that a solid keeps. While its shells are sought it takes
+ * solid_shells_bytes more. */
+size_t solid_bytes(size_t count);
+
 /* Finds the side on which all points lie that are no farther than `off` from x. SOLID_NOT_CLOSED:
  * the surfaces bound no volume, as *error tells. *stopped: the watch ended it, and *side means
  * nothing. Fails as plugins do. */

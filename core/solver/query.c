@@ -433,7 +433,7 @@ FP_APART static imp_code refine(imp_query *query, double gamma, double gamma_cle
                        query->candidates.pair_count))
         return error_set_memory(error);
     query->gamma_clear = gamma_clear;
-    query->insides_next = 0;
+    query_forget_insides(query);
     if (query->verdict == IMP_VERDICT_CONTACT)
         query_finish(query, IMP_VERDICT_UNDECIDED, IMP_REASON_RUNNING);
     return IMP_SUCCESS;
@@ -461,7 +461,7 @@ imp_code imp_query_exclude_pair(imp_query *query, imp_error *error)
     if (query->proof != NULL)
         return error_set(error, IMP_ERROR_USAGE, "pass: this query keeps a proof");
     if (!impact_pass(&query->impact, query->candidates.pair_count)) return error_set_memory(error);
-    query->insides_next = 0;
+    query_forget_insides(query);
     query_finish(query, IMP_VERDICT_UNDECIDED, IMP_REASON_RUNNING);
     return IMP_SUCCESS;
 }

@@ -20,6 +20,13 @@ static bool limit_is_far(void *context)
 
 void query_begin_watch(imp_query *query) { query->watch = (limit_watch){limit_is_far, query}; }
 
+void query_forget_insides(imp_query *query)
+{
+    inside_free(query->insides);
+    query->insides = NULL;
+    query->insides_next = 0;
+}
+
 bool query_may_be_inside(const imp_query *query)
 {
     return query->insides_next < query->candidates.pair_count && scene_has_solids(query->scene);
@@ -48,7 +55,7 @@ static imp_code begin(imp_query *query, imp_error *error)
 {
     const inside_plan plan = {query->scene,           query->impact.gamma,  query->gamma_clear,
                               query->options.t_start, query->options.t_end, &query->watch};
-    inside_free(query->insides);
+    if (query->insides != NULL) return IMP_SUCCESS;
     query->insides = inside_new(&plan);
     query->inside_unknown = false;
     return query->insides != NULL ? IMP_SUCCESS : error_set_memory(error);
@@ -58,8 +65,7 @@ imp_code query_look_inside(imp_query *query, imp_error *error)
 {
     const candidate_pair *pairs = query->candidates.pairs;
     const bool *passed = query->impact.passed;
-    imp_code code = IMP_SUCCESS;
-    if (query->insides_next == 0) code = begin(query, error);
+    imp_code code = begin(query, error);
     while (query->insides_next < query->candidates.pair_count) {
         const size_t k = query->insides_next;
         const size_t body[2] = {pairs[k].side[0]->body, pairs[k].side[1]->body};

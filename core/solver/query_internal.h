@@ -68,6 +68,9 @@ bool query_may_be_inside(const imp_query *query);
 /* Makes the query's watch. */
 void query_begin_watch(imp_query *query);
 
+/* Lets all pairs be asked again who is inside whom. */
+void query_forget_insides(imp_query *query);
+
 /* Returns the reason that a clear query answers. */
 imp_reason query_reason_of_clear(const imp_query *query);
 

@@ -602,6 +602,61 @@ START_TEST(a_limit_of_time_ends_the_look_inside)
 }
 END_TEST
 
+/* A solid of many balls side by side, and a small ball in one of them. */
+static imp_scene *many_balls(bool solid)
+{
+    enum { BALLS = 200 };
+    char balls[60 * BALLS];
+    size_t length = 0;
+    for (int k = 0; k < BALLS; ++k)
+        length += (size_t)snprintf(balls + length, sizeof balls - length,
+                                   "%s{\"type\":\"sphere\",\"center\":[%d,0,0]}", k > 0 ? "," : "",
+                                   3 * k);
+    return scene_of(words("{\"surfaces\":[%s]%s},{\"surfaces\":[{\"type\":\"sphere\","
+                          "\"radius\":0.1,\"center\":[30,0,0]}]}",
+                          balls, solid ? ",\"solid\":true" : "")
+                        .text);
+}
+
+START_TEST(a_limit_of_memory_ends_the_look_inside)
+{
+    uint64_t bytes[2];
+    for (int solid = 0; solid < 2; ++solid) {
+        imp_scene *scene = many_balls(solid);
+        const imp_options options = imp_options_default(scene);
+        imp_result r = {.struct_size = sizeof r};
+        ck_assert_int_eq(imp_scene_solve(scene, &options, &r, NULL), IMP_SUCCESS);
+        ck_assert(is_inside(&r) == solid);
+        bytes[solid] = r.stats.bytes;
+        imp_scene_free(scene);
+    }
+    ck_assert_uint_gt(bytes[1], bytes[0] + 200 * 500);
+    imp_scene *scene = many_balls(true);
+    imp_options options = imp_options_default(scene);
+    options.max_bytes = (bytes[0] + bytes[1]) / 2;
+    imp_query *query = imp_query_new(scene, &options, NULL);
+    ck_assert_int_eq(imp_query_step(query, 0, NULL), IMP_SUCCESS);
+    imp_result r = imp_query_result(query);
+    ck_assert(r.verdict == IMP_VERDICT_UNDECIDED && r.reason == IMP_REASON_MEMORY);
+    ck_assert(r.t_lower == 0);
+    imp_query_free(query);
+    const imp_clearance_options asked = imp_clearance_options_default();
+    query = imp_clearance_new(scene, &options, &asked, NULL);
+    ck_assert_int_eq(imp_query_step(query, 0, NULL), IMP_SUCCESS);
+    r = imp_query_result(query);
+    ck_assert(r.verdict == IMP_VERDICT_UNDECIDED && r.reason == IMP_REASON_MEMORY);
+    imp_query_free(query);
+    options.max_bytes = 0;
+    query = imp_clearance_new(scene, &options, &asked, NULL);
+    imp_clearance found = {.struct_size = sizeof found};
+    ck_assert_int_eq(imp_query_step(query, 0, NULL), IMP_SUCCESS);
+    ck_assert_int_eq(imp_clearance_get(query, 0, &found, NULL), IMP_SUCCESS);
+    ck_assert(found.upper == 0);
+    imp_query_free(query);
+    imp_scene_free(scene);
+}
+END_TEST
+
 /* --- Solid angles ----------------------------------------------------------------------------- */
 
 static vec3 random_point(uint64_t *state)
@@ -678,6 +733,7 @@ int main(void)
         slices_of_time_that_begin_inside_have_no_distance,
         a_slice_that_begins_behind_a_gap_begins_inside,
         a_limit_of_time_ends_the_look_inside,
+        a_limit_of_memory_ends_the_look_inside,
         the_solid_angle_of_a_triangle_is_within_its_error};
     return suite_main_with("solids", tests, sizeof tests / sizeof tests[0], open_registry,
                            close_registry);
