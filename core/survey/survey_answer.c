@@ -4,6 +4,7 @@
 
 #include <string.h>
 
+#include "core/base/fp_mode.h"
 #include "core/base/sized.h"
 #include "core/base/status.h"
 #include "core/survey/survey_internal.h"
@@ -17,7 +18,7 @@ static double t_lower_of(const imp_survey *s)
     return t;
 }
 
-static imp_result result_of(const imp_survey *s)
+FP_APART static imp_result result_of(const imp_survey *s)
 {
     imp_result r = s->best.contact;
     const bool is_contact = s->verdict == IMP_VERDICT_CONTACT;
@@ -45,7 +46,9 @@ imp_code imp_survey_get_result(const imp_survey *s, imp_result *result, imp_erro
     const imp_code code = sized_check("imp_result", result, offsetof(imp_result, kind), error);
     if (code != IMP_SUCCESS) return code;
     if (s->is_clearance) return refuse_kind("a clearance: imp_survey_get_clearance", error);
+    const fp_environment environment = fp_environment_enter();
     const imp_result own = result_of(s);
+    fp_environment_leave(&environment);
     sized_write(result, &own);
     return IMP_SUCCESS;
 }
@@ -60,7 +63,7 @@ static double lower_of(const imp_survey *s)
     return lower;
 }
 
-static imp_clearance bracket_of(const imp_survey *s)
+FP_APART static imp_clearance bracket_of(const imp_survey *s)
 {
     imp_clearance c = s->best.nearest;
     const double required = s->asked.required;
@@ -81,7 +84,7 @@ static imp_clearance bracket_of(const imp_survey *s)
 }
 
 /* Of a search for any contact at the required distance. */
-static imp_clearance decision_of(const imp_survey *s)
+FP_APART static imp_clearance decision_of(const imp_survey *s)
 {
     const imp_result *r = &s->best.contact;
     imp_clearance c = {.t = NAN, .upper = INFINITY, .t_violated = NAN, .gap_violated = NAN};
@@ -108,7 +111,9 @@ imp_code imp_survey_get_clearance(const imp_survey *s, imp_clearance *answer, im
     const imp_code code = sized_check("imp_clearance", answer, sizeof *answer, error);
     if (code != IMP_SUCCESS) return code;
     if (!s->is_clearance) return refuse_kind("a contact: imp_survey_get_result", error);
+    const fp_environment environment = fp_environment_enter();
     imp_clearance own = s->is_distance ? bracket_of(s) : decision_of(s);
+    fp_environment_leave(&environment);
     own.struct_size = (uint32_t)sizeof own;
     const bool is_decision = !s->is_distance && s->reason == IMP_REASON_NONE;
     own.reason = is_decision ? IMP_REASON_DECIDED : s->reason;
@@ -130,7 +135,7 @@ bool imp_survey_values(const imp_survey *s, double *values)
 }
 
 /* A decided search needs nothing of the boxes that wait. */
-static double share_of(const imp_survey *s)
+FP_APART static double share_of(const imp_survey *s)
 {
     const bool is_all =
         s->reason == IMP_REASON_NONE && (s->is_distance || s->verdict == IMP_VERDICT_CLEAR);
@@ -143,11 +148,14 @@ imp_code imp_survey_get_state(const imp_survey *s, imp_survey_state *state, imp_
     const imp_code code = sized_check("imp_survey_state", state, sizeof *state, error);
     if (code != IMP_SUCCESS) return code;
     const survey_box *first = box_queue_first(&s->queue);
+    const fp_environment environment = fp_environment_enter();
+    const double proved = share_of(s);
+    fp_environment_leave(&environment);
     imp_survey_state own = {.struct_size = (uint32_t)sizeof own,
                             .reason = s->reason,
                             .boxes = s->boxes,
                             .waiting = s->queue.count,
-                            .proved = share_of(s),
+                            .proved = proved,
                             .t_upper = s->best.t,
                             .pairs_of_bodies = s->pair_count,
                             .has_worst = first != NULL};
