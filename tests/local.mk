@@ -198,6 +198,7 @@ bats_suites = \
     tests/cli/python.bats \
     tests/cli/page.bats \
     tests/cli/parameters.bats \
+    tests/cli/parameters_view.bats \
     tests/cli/series.bats \
     tests/cli/simulate.bats \
     tests/cli/simulate_rest.bats \

@@ -176,6 +176,7 @@ tools_view = \
     tools/view/storyboard.c tools/view/storyboard.h \
     tools/view/stroke_font.c tools/view/stroke_font.h \
     tools/view/subject.c tools/view/subject.h \
+    tools/view/at_values.c tools/view/at_values.h \
     tools/view/view.c tools/view/view.h \
     tools/view/view_film.c tools/view/view_film.h \
     tools/view/visibility.c tools/view/visibility.h \
@@ -301,16 +302,19 @@ pkgdata_DATA = \
     tools/data/arm.json \
     tools/data/arm.srdf \
     tools/data/arm.urdf \
+    tools/data/arm_off.json \
     tools/data/arm_shelf.yaml \
     tools/data/bicubic_moving_100.jsonl \
     tools/data/blade.json \
     tools/data/bolt.json \
     tools/data/bowl.json \
     tools/data/die.json \
+    tools/data/door.json \
     tools/data/egg.json \
     tools/data/page.html \
     tools/data/pebble.json \
     tools/data/recoil.json \
+    tools/data/spindle.json \
     tools/data/teapot.json \
     tools/schema/badge.schema.json \
     tools/schema/bench.schema.json \
@@ -345,6 +349,7 @@ $(built_data)/template/impinge.m4: sdk/impinge.m4
 $(built_data)/include/%: sdk/%
 	$(copy_data)
 
-EXTRA_DIST += tools/data/blade.png tools/data/blade_gap.png
+EXTRA_DIST += tools/data/blade.png tools/data/blade_gap.png \
+    tools/data/arm_off.png tools/data/door.png tools/data/spindle.png
 EXTRA_DIST += tools/debian tools/package
 EXTRA_DIST += tools/coverage tools/coverage.gaps tools/coverage.py tools/demo tools/prepare tools/test $(pkgdata_DATA)

@@ -348,6 +348,10 @@ IMP_EXPORT size_t imp_scene_parameter_count(const imp_scene *scene);
 IMP_EXPORT bool imp_scene_parameter(const imp_scene *scene, size_t index,
                                     imp_scene_parameter_info *info);
 
+/* Whether the body moves, or changes its shape, with parameter `index`: by its own surfaces and
+ * maps, or by those of a parent. False if there is no such body or parameter. */
+IMP_EXPORT bool imp_scene_follows(const imp_scene *scene, size_t body, size_t index);
+
 /* Makes the scene at these values of its parameters, one for each, in their order: a scene without
  * parameters, which shares with the other what create made. IMP_ERROR_USAGE: a value is out of its
  * range. NULL on error. The caller frees the scene. [any thread] */

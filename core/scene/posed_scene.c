@@ -95,7 +95,20 @@ imp_code posed_scene_of_bodies(const imp_scene *scene, const double *values, con
     return code;
 }
 
-/* --- The public function ---------------------------------------------------------------------- */
+/* --- Public functions ------------------------------------------------------------------------- */
+
+bool imp_scene_follows(const imp_scene *scene, size_t body, size_t index)
+{
+    if (scene == NULL || body >= scene_body_count(scene)) return false;
+    for (size_t k = 0; k < scene_surface_count(scene, body); ++k) {
+        const surface *s = scene_surface(scene, body, k);
+        for (size_t stage = 0; stage <= surface_map_count(s); ++stage) {
+            const shared_instance *one = surface_stage(s, stage);
+            if (one->inner != NULL && one->clock == index) return true;
+        }
+    }
+    return false;
+}
 
 static imp_code check_values(const imp_scene *scene, const double *values, imp_error *error)
 {

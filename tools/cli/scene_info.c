@@ -79,6 +79,46 @@ static void print_body(const imp_scene *scene, size_t body, const imp_closure *c
     putchar('\n');
 }
 
+/* --- Parameters ------------------------------------------------------------------------------- */
+
+/* Returns the names of the bodies that follow it. NULL: no memory. */
+static json_t *followers_json(const imp_scene *scene, size_t parameter)
+{
+    json_t *names = json_array();
+    for (size_t body = 0; names != NULL && body < imp_scene_body_count(scene); ++body)
+        if (imp_scene_follows(scene, body, parameter))
+            json_array_append_new(names, output_json_text(imp_scene_body_name(scene, body)));
+    return names;
+}
+
+static json_t *parameters_json(const imp_scene *scene)
+{
+    imp_scene_parameter_info info;
+    json_t *list = json_array();
+    for (size_t k = 0; list != NULL && imp_scene_parameter(scene, k, &info); ++k)
+        json_array_append_new(list,
+                              json_pack("{s:o, s:o, s:o}", "name", output_json_text(info.name),
+                                        "range", result_times_json(info.lo, info.hi), "followed_by",
+                                        followers_json(scene, k)));
+    return list;
+}
+
+static void print_parameters(const imp_scene *scene)
+{
+    imp_scene_parameter_info info;
+    for (size_t k = 0; imp_scene_parameter(scene, k, &info); ++k) {
+        const char *before = "followed by ";
+        printf("parameter %s: from %.10g to %.10g, ", message_shown(info.name).text, info.lo,
+               info.hi);
+        for (size_t body = 0; body < imp_scene_body_count(scene); ++body) {
+            if (!imp_scene_follows(scene, body, k)) continue;
+            printf("%s%s", before, imp_scene_body_name(scene, body));
+            before = ", ";
+        }
+        puts(before[0] == 'f' ? "followed by no surface" : "");
+    }
+}
+
 /* --- All -------------------------------------------------------------------------------------- */
 
 static exit_status print_bodies(const imp_scene *scene, const arguments *args, json_t *list)
@@ -109,9 +149,16 @@ exit_status scene_info_print(imp_registry *registry, const arguments *args)
     query_warn(scene, args);
     json_t *list = arguments_option(args, "json") != NULL ? json_array() : NULL;
     exit_status status = print_bodies(scene, args, list);
+    json_t *parameters = NULL;
+    if (list == NULL)
+        print_parameters(scene);
+    else if (imp_scene_parameter_count(scene) > 0)
+        parameters = parameters_json(scene);
     imp_scene_free(scene);
     if (list != NULL && status == EXIT_ANSWERED)
-        return output_json(json_pack("{s:o}", "bodies", list), args->verb->name);
+        return output_json(json_pack("{s:o, s:o*}", "bodies", list, "parameters", parameters),
+                           args->verb->name);
+    json_decref(parameters);
     json_decref(list);
     return status;
 }

@@ -9,6 +9,7 @@
 #include <string.h>
 
 #include "tools/cli/verbs.h"
+#include "tools/view/at_values.h"
 
 static const char *const formats[] = {"png", "svg", "glb", "html", "obj", "vtu", "pvd", NULL};
 static const char *const endings[] = {".png", ".svg", ".glb", ".html", ".obj", ".vtu", ".pvd"};
@@ -45,7 +46,7 @@ const option request_options[] = {
      .argument = "T",
      .help =
          "show this moment alone: a time, or 'nearest', where bodies touch or come nearest (start, "
-         "that, and end)"},
+         "that, and end); and values of parameters: NAME=VALUE,..."},
     {.name = "tolerance",
      .kind = OPTION_NUMBER,
      .argument = "LENGTH",
@@ -87,16 +88,20 @@ static const char *format_asked(const arguments *args)
 static exit_status read_at(const arguments *args, view_request *request)
 {
     const option_value *value = arguments_option(args, "at");
-    char *end;
+    char *end, time[64];
     if (value == NULL) return EXIT_ANSWERED;
-    request->at = strtod(value->text, &end);
+    const bool is_one = at_values_time(value->text, time, sizeof time);
+    if (is_one && time[0] == '\0' && value->text[0] != '\0') return EXIT_ANSWERED;
+    request->at = strtod(time, &end);
     request->at_kind = REQUEST_AT_TIME;
-    if (end != value->text && *end == '\0' && isfinite(request->at)) return EXIT_ANSWERED;
+    if (is_one && end != time && *end == '\0' && isfinite(request->at)) return EXIT_ANSWERED;
     request->at_kind = REQUEST_AT_SPOT;
-    if (strcmp(value->text, "nearest") == 0 || strcmp(value->text, "contact") == 0)
+    if (is_one && (strcmp(time, "nearest") == 0 || strcmp(time, "contact") == 0))
         return EXIT_ANSWERED;
     return complain(EXIT_USAGE, args->verb->name,
-                    "--at must be a finite number, or 'nearest', not '%s'", value->text);
+                    "--at must be a finite number, or 'nearest', and values of parameters, "
+                    "NAME=VALUE, not '%s'",
+                    value->text);
 }
 
 exit_status request_read(const arguments *args, view_request *request)

@@ -13,6 +13,7 @@
 #include "tools/cli/query.h"
 #include "tools/cli/reading_limit.h"
 #include "tools/cli/verbs.h"
+#include "tools/view/at_values.h"
 #include "tools/view/nearest.h"
 #include "tools/view/recorded.h"
 
@@ -137,6 +138,8 @@ static exit_status read_text(subject *s, const arguments *args, const input_text
                   answer.pair);
         if (s->scene == NULL) status = complain_of(&error, args->verb->name);
     }
+    if (status == EXIT_ANSWERED)
+        status = at_values_pose(&s->scene, json_object_get(json, "parameters"), args);
     if (status == EXIT_ANSWERED && !events_read(json, &s->events))
         status = complain_of_memory(args->verb->name);
     if (status == EXIT_ANSWERED && answer.kind != RECORDED_NOTHING) {
@@ -171,7 +174,8 @@ static exit_status read_pair(subject *s, const arguments *args)
     imp_error error = {0};
     s->scene = imp_scene_from_pair(s->registry, args->operands[0], args->operands[1], &error);
     set_title(s, NULL, args->operands);
-    return s->scene != NULL ? EXIT_ANSWERED : complain_of(&error, args->verb->name);
+    return s->scene != NULL ? at_values_pose(&s->scene, NULL, args)
+                            : complain_of(&error, args->verb->name);
 }
 
 exit_status subject_read(subject *s, const arguments *args)

@@ -1,0 +1,70 @@
+#!/usr/bin/env bats
+# SPDX-FileCopyrightText: The Impinge authors
+# SPDX-License-Identifier: Apache-2.0
+
+# Examples of scenes with parameters; what is listed of them and drawn.
+
+load ../support/cli_helper
+
+setup() {
+    cd "$BATS_TEST_TMPDIR"
+    data=$top_srcdir/tools/data
+}
+
+@test "a spindle and its nozzle reach nothing at any angle of two axes" {
+    run -0 "$IMPINGE" solve "$data/spindle.json" --json
+    json '.verdict == "clear" and .parameters == null and .boxes > 0'
+    run -0 "$IMPINGE" clearance "$data/spindle.json" --json
+    json '.lower > 48 and .upper < 49 and (.parameters.b | fabs > 1.9) and (.proved == null)'
+}
+
+@test "a distance is kept with every joint of an arm half a degree off" {
+    run -0 "$IMPINGE" clearance "$data/arm_off.json" --require 5 --json
+    json '.verdict == "holds" and .stats.pairs < 100000'
+}
+
+@test "a hinge that is a millimetre off leaves room, and three do not" {
+    run -0 "$IMPINGE" clearance "$data/door.json" --require 1.5 --json
+    json '.verdict == "holds"'
+    run -1 "$IMPINGE" clearance "$data/door.json" --require 1.5 --parameter dx=-1,3 --json
+    json '.verdict == "violated" and .parameters.dx > 1 and .bodies == null'
+}
+
+@test "what a limit leaves tells the share that is proved, and the worst box" {
+    run -3 "$IMPINGE" clearance "$data/spindle.json" --tolerance 1e-9 --max-pairs 500 --json
+    json '.proved >= 0 and .proved < 1 and (.worst.parameters.b | length == 2)'
+    run -3 "$IMPINGE" solve "$data/spindle.json" --max-boxes 1 --json --gamma 1e-6
+    json '.verdict == "undecided" and .proved < 1'
+}
+
+@test "info lists parameters, and the bodies that follow them" {
+    run -0 "$IMPINGE" info "$data/spindle.json" --json
+    valid types
+    json '.parameters[0] == {"name": "b", "range": [-1.92, 1.92], "followed_by": ["spindle", "nozzle"]}'
+    json '.parameters[1].followed_by == ["fork", "spindle", "nozzle"]'
+    run -0 "$IMPINGE" info "$data/spindle.json"
+    [[ $output == *'parameter b: from -1.92 to 1.92, followed by spindle, nozzle'* ]]
+}
+
+@test "a picture is of values: those given, those of a result, or the middle" {
+    small=(--width 96 --height 80)
+    run -0 --separate-stderr "$IMPINGE" view "$data/spindle.json" -o middle.obj "${small[@]}" --at 0
+    [[ $stderr == *'drawn at b = 0, c = 0; --at NAME=VALUE,... shows others'* ]]
+    run -0 --separate-stderr "$IMPINGE" view "$data/spindle.json" -o given.obj --at b=0,c=0,0
+    [ -z "$stderr" ]
+    cmp middle.obj given.obj
+    run -0 "$IMPINGE" view "$data/spindle.json" -o other.obj --at c=1,0,b=-1
+    run ! cmp -s middle.obj other.obj
+    "$IMPINGE" clearance "$data/spindle.json" --json >result.json
+    run -0 --separate-stderr "$IMPINGE" view result.json -o result.png "${small[@]}"
+    [[ $stderr == *'drawn at b = -1.92'* ]]
+}
+
+@test "values that a scene does not have are refused" {
+    fails 2 "--at: the scene has no parameter 'bb'" "$IMPINGE" view "$data/spindle.json" -o x.png --at bb=1
+    fails 2 "--at: 'b' must be from -1.92 to 1.92, not '3'" \
+        "$IMPINGE" view "$data/spindle.json" -o x.png --at b=3
+    fails 2 '--at b: the scene has no parameters' "$IMPINGE" view "$data/arm.json" -o x.png --at b=1
+    fails 2 '--at must be a finite number' "$IMPINGE" view "$data/spindle.json" -o x.png --at b=1,1,2
+    [ ! -e x.png ]
+}

@@ -1,0 +1,143 @@
+/* SPDX-FileCopyrightText: The Impinge authors
+ * SPDX-License-Identifier: Apache-2.0 */
+#include <config.h>
+
+#include "tools/view/at_values.h"
+
+#include <math.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "core/common/spelling.h"
+#include "tools/cli/verbs.h"
+
+/* --- The parts of --at ------------------------------------------------------------------------ */
+
+/* A part between commas: NAME=VALUE, a time or a word. */
+typedef struct at_part {
+    const char *at, *equals; /* NULL: there is no '=' */
+    size_t length;
+} at_part;
+
+/* Moves to the next part. False: there is none. */
+static bool next_part(const char **text, at_part *part)
+{
+    if (**text == '\0') return false;
+    part->at = *text;
+    part->length = strcspn(*text, ",");
+    part->equals = memchr(part->at, '=', part->length);
+    *text += part->length + (part->at[part->length] == ',');
+    return true;
+}
+
+bool at_values_time(const char *text, char *copy, size_t size)
+{
+    at_part part;
+    bool found = false;
+    copy[0] = '\0';
+    while (next_part(&text, &part)) {
+        if (part.equals != NULL) continue;
+        if (found || part.length >= size) return false;
+        memcpy(copy, part.at, part.length);
+        copy[part.length] = '\0';
+        found = true;
+    }
+    return true;
+}
+
+/* --- Values ----------------------------------------------------------------------------------- */
+
+static exit_status refuse_name(const imp_scene *scene, const at_part *part, const arguments *args)
+{
+    imp_scene_parameter_info info;
+    char name[128];
+    snprintf(name, sizeof name, "%.*s", (int)(part->equals - part->at), part->at);
+    spelling_search near = {.wanted = name};
+    for (size_t k = 0; imp_scene_parameter(scene, k, &info); ++k) spelling_offer(&near, info.name);
+    if (imp_scene_parameter_count(scene) == 0)
+        return complain(EXIT_USAGE, args->verb->name, "--at %s: the scene has no parameters", name);
+    if (near.best != NULL)
+        return complain(EXIT_USAGE, args->verb->name,
+                        "--at: the scene has no parameter '%s', did you mean '%s'?", name,
+                        near.best);
+    return complain(EXIT_USAGE, args->verb->name,
+                    "--at: the scene has no parameter '%s'; `impinge info` lists them", name);
+}
+
+static exit_status set_value(const imp_scene *scene, const at_part *part, double *values,
+                             const arguments *args)
+{
+    imp_scene_parameter_info info;
+    const size_t length = (size_t)(part->equals - part->at);
+    char *end;
+    const double value = strtod(part->equals + 1, &end);
+    const bool is_number = end != part->equals + 1 && end == part->at + part->length;
+    size_t k = 0;
+    while (imp_scene_parameter(scene, k, &info) &&
+           !(strlen(info.name) == length && memcmp(info.name, part->at, length) == 0))
+        ++k;
+    if (k == imp_scene_parameter_count(scene)) return refuse_name(scene, part, args);
+    if (!is_number || !(value >= info.lo && value <= info.hi))
+        return complain(EXIT_USAGE, args->verb->name,
+                        "--at: '%s' must be from %.10g to %.10g, not '%.*s'", info.name, info.lo,
+                        info.hi, (int)(part->length - length - 1), part->equals + 1);
+    values[k] = value;
+    return EXIT_ANSWERED;
+}
+
+static exit_status read_values(const imp_scene *scene, const char *text, double *values,
+                               const arguments *args)
+{
+    at_part part;
+    exit_status status = EXIT_ANSWERED;
+    while (status == EXIT_ANSWERED && next_part(&text, &part))
+        if (part.equals != NULL) status = set_value(scene, &part, values, args);
+    return status;
+}
+
+/* Sets the values of a result, or the middle of each range. */
+static void usual_values(const imp_scene *scene, const json_t *known, double *values)
+{
+    imp_scene_parameter_info info;
+    for (size_t k = 0; imp_scene_parameter(scene, k, &info); ++k) {
+        const json_t *one = json_object_get(known, info.name);
+        const double value = json_is_number(one) ? json_number_value(one) : NAN;
+        values[k] = value >= info.lo && value <= info.hi ? value : 0.5 * info.lo + 0.5 * info.hi;
+    }
+}
+
+static void tell_values(const imp_scene *scene, const double *values, const arguments *args)
+{
+    imp_scene_parameter_info info;
+    char text[512] = "";
+    size_t used = 0;
+    for (size_t k = 0; imp_scene_parameter(scene, k, &info) && used < sizeof text; ++k)
+        used += (size_t)snprintf(text + used, sizeof text - used, "%s%s = %.6g", k > 0 ? ", " : "",
+                                 info.name, values[k]);
+    remark(args->verb->name, "drawn at %s; --at NAME=VALUE,... shows others",
+           message_shown(text).text);
+}
+
+exit_status at_values_pose(imp_scene **scene, const json_t *known, const arguments *args)
+{
+    const option_value *at = arguments_option(args, "at");
+    const size_t count = imp_scene_parameter_count(*scene);
+    imp_error error = {0};
+    double *values = calloc(count + 1, sizeof *values);
+    if (values == NULL) return complain_of_memory(args->verb->name);
+    usual_values(*scene, known, values);
+    exit_status status = at != NULL ? read_values(*scene, at->text, values, args) : EXIT_ANSWERED;
+    if (status == EXIT_ANSWERED && count > 0) {
+        if (at == NULL || strchr(at->text, '=') == NULL) tell_values(*scene, values, args);
+        imp_scene *posed = imp_scene_at(*scene, values, &error);
+        if (posed == NULL) {
+            status = complain_of(&error, args->verb->name);
+        } else {
+            imp_scene_free(*scene);
+            *scene = posed;
+        }
+    }
+    free(values);
+    return status;
+}
