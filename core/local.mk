@@ -136,6 +136,7 @@ core_bounds = \
     core/bounds/net_hull.h \
     core/bounds/net_model_axis.c core/bounds/net_model_axis.h \
     core/bounds/normal_field.c core/bounds/normal_field.h \
+    core/bounds/normal_turn.c core/bounds/normal_turn.h \
     core/bounds/quadratic.h \
     core/bounds/separation.c core/bounds/separation.h \
     core/bounds/strategy.c core/bounds/strategy.h \

@@ -4,140 +4,8 @@
 
 #include "core/bounds/normal_field.h"
 
+#include "core/bounds/normal_turn.h"
 #include "core/bounds/quadratic.h"
-#include "core/bounds/tuning.h"
-
-/* A vector in the field's frame: along the tangents t1, t2 and the normal. */
-typedef struct local {
-    double t[2], n;
-} local;
-
-typedef struct frame {
-    vec3 t[2], n;
-} frame;
-
-static local to_local(const frame *f, const double *x)
-{
-    const vec3 v = vec3_from(x);
-    return (local){{vec3_dot(f->t[0], v), vec3_dot(f->t[1], v)}, vec3_dot(f->n, v)};
-}
-
-/* Terms of second order: s_u^2, s_u s_v, s_v^2, s_u w, s_v w. */
-enum { UU, UV, VV, UW, VW, SECONDS };
-
-/* A slice in the frame: slopes along u and v, and terms of second order. */
-typedef struct local_slice {
-    local l[2], q[SECONDS];
-    double qw[3]; /* how UU, UV and VV change with w, along the normal */
-} local_slice;
-
-static local_slice slice_to_local(const frame *f, const slice *s, bool is_posed)
-{
-    local_slice l = {{to_local(f, s->bu), to_local(f, s->bv)},
-                     {to_local(f, s->quu), to_local(f, s->quv), to_local(f, s->qvv),
-                      to_local(f, s->quw), to_local(f, s->qvw)},
-                     {0, 0, 0}};
-    if (is_posed) {
-        l.qw[UU] = vec3_dot(f->n, vec3_from(s->uuw));
-        l.qw[UV] = vec3_dot(f->n, vec3_from(s->uvw));
-        l.qw[VV] = vec3_dot(f->n, vec3_from(s->vvw));
-    }
-    return l;
-}
-
-/* Makes the frame between the two normals, of unit length up to rounding. False: the surfaces have
- * no normals or are not nearly tangent. */
-static bool frame_between(const difference *r, frame *f)
-{
-    const double la = vec3_norm(r->a.normal), lb = vec3_norm(r->b.normal);
-    if (!(la > 0x1p-300 && lb > 0x1p-300 && la < 0x1p300 && lb < 0x1p300)) return false;
-    const vec3 na = vec3_scale(r->a.normal, 1 / la), nb = vec3_scale(r->b.normal, 1 / lb);
-    const double cosine = vec3_dot(na, nb);
-    if (!(fabs(cosine) > TUNING_FIELD_COSINE)) return false;
-    vec3 n = cosine > 0 ? vec3_add(na, nb) : vec3_sub(na, nb);
-    n = vec3_scale(n, 1 / vec3_norm(n));
-    const int least = fabs(n.x[0]) < fabs(n.x[1]) ? (fabs(n.x[0]) < fabs(n.x[2]) ? 0 : 2)
-                                                  : (fabs(n.x[1]) < fabs(n.x[2]) ? 1 : 2);
-    vec3 e = {{0, 0, 0}};
-    e.x[least] = 1;
-    const vec3 t = vec3_cross(n, e);
-    f->n = n;
-    f->t[0] = vec3_scale(t, 1 / vec3_norm(t));
-    f->t[1] = vec3_cross(n, f->t[0]);
-    return true;
-}
-
-/* A symmetric 2 x 2 matrix. */
-typedef struct form {
-    double xx, xy, yy;
-} form;
-
-/* Chooses K with y' K y / 2 = n.(quadratic part), y = (tangential slopes) s. False: the slopes are
- * too nearly parallel. Nothing is proved by the choice. */
-static bool curvature(const local_slice *s, form *k)
-{
-    const double ux = s->l[0].t[0], uy = s->l[0].t[1], vx = s->l[1].t[0], vy = s->l[1].t[1];
-    const double det = ux * vy - uy * vx;
-    if (!(fabs(det) > 0x1p-20 * (fabs(ux * vy) + fabs(uy * vx)))) return false;
-    /* s = J y with J the inverse of [u v]; K = J' H J, H = [[2 uu, uv], [uv, 2 vv]] */
-    const double a = vy / det, b = -vx / det, c = -uy / det, d = ux / det;
-    const double hxx = 2 * s->q[UU].n, hxy = s->q[UV].n, hyy = 2 * s->q[VV].n;
-    k->xx = a * a * hxx + 2 * a * c * hxy + c * c * hyy;
-    k->xy = a * b * hxx + (a * d + b * c) * hxy + c * d * hyy;
-    k->yy = b * b * hxx + 2 * b * d * hxy + d * d * hyy;
-    return true;
-}
-
-static double dot2(const double *m, const local *x) { return m[0] * x->t[0] + m[1] * x->t[1]; }
-
-/* How the field turns with one surface's parameters: m = -K x / 2 for each of its terms x, in the
- * tangents. */
-typedef struct turn {
-    double l[2][2], q[SECONDS][2];
-} turn;
-
-static void turn_by(const form *k, const local *x, double m[2])
-{
-    m[0] = -0.5 * (k->xx * x->t[0] + k->xy * x->t[1]);
-    m[1] = -0.5 * (k->xy * x->t[0] + k->yy * x->t[1]);
-}
-
-static void turn_choose(const form *k, const local_slice *s, turn *m)
-{
-    for (int j = 0; j < 2; ++j) turn_by(k, &s->l[j], m->l[j]);
-    for (int j = 0; j < SECONDS; ++j) turn_by(k, &s->q[j], m->q[j]);
-}
-
-/* Computes the rate, along the tangents, at which a surface's own normal turns: m.l + n0.lw = 0 for
- * both slopes. */
-static void turn_in_time(const local_slice *s, double m[2])
-{
-    const local *u = &s->l[0], *v = &s->l[1];
-    const double det = u->t[0] * v->t[1] - u->t[1] * v->t[0];
-    m[0] = (v->t[1] * -s->q[UW].n - u->t[1] * -s->q[VW].n) / det;
-    m[1] = (u->t[0] * -s->q[VW].n - v->t[0] * -s->q[UW].n) / det;
-}
-
-/* The numbers m of the lemma. */
-typedef struct turns {
-    turn a, b;
-    double w[2];
-} turns;
-
-/* Chooses the numbers m of the lemma. False: the slopes are too nearly parallel. */
-static bool turns_choose(const local_slice *a, const local_slice *b, turns *m)
-{
-    form ka, kb;
-    if (!curvature(a, &ka) || !curvature(b, &kb)) return false;
-    const form mean = {0.5 * (ka.xx + kb.xx), 0.5 * (ka.xy + kb.xy), 0.5 * (ka.yy + kb.yy)};
-    double wa[2], wb[2];
-    turn_choose(&mean, a, &m->a);
-    turn_choose(&mean, b, &m->b);
-    turn_in_time(a, wa);
-    turn_in_time(b, wb);
-    for (int i = 0; i < 2; ++i) m->w[i] = 0.5 * (wa[i] + wb[i]);
-    return true;
-}
 
 /* The offset, drift and bend of the difference in the frame. */
 typedef struct path {
@@ -386,10 +254,10 @@ bool normal_field_cut(const difference *r, double gamma_clear, w_range *s, gap_l
 {
     frame f;
     turns m;
-    if (!frame_between(r, &f)) return true;
-    const local_slice a = slice_to_local(&f, &r->a, r->posed > 0),
-                      b = slice_to_local(&f, &r->b, r->posed > 0);
-    if (!turns_choose(&a, &b, &m)) return true;
+    if (!normal_frame_between(r, &f)) return true;
+    const local_slice a = normal_slice_to_local(&f, &r->a, r->posed > 0),
+                      b = normal_slice_to_local(&f, &r->b, r->posed > 0);
+    if (!normal_turns_choose(&a, &b, &m)) return true;
     const path x = {to_local(&f, r->delta), to_local(&f, r->drift), to_local(&f, r->bend)};
     const height h = height_of(r, &a, &b, &m, &x);
     const imp_quad seen = imp_quad_min(quadratics_corner(&h.parts), imp_quad_all(0));
