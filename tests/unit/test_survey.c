@@ -405,6 +405,26 @@ START_TEST(wrong_clocks_and_parameters_are_refused)
 }
 END_TEST
 
+START_TEST(more_parameters_than_a_search_can_handle_are_refused)
+{
+    imp_error error;
+    char name[16];
+    imp_builder *builder = imp_builder_new(registry);
+    imp_code code = IMP_SUCCESS;
+    int count = 0;
+    for (; code == IMP_SUCCESS && count < 100; ++count) {
+        snprintf(name, sizeof name, "p%d", count);
+        code = imp_builder_parameter(builder, name, 0, 1, &error);
+    }
+    ck_assert_int_eq(code, IMP_ERROR_SCENE);
+    ck_assert_int_eq(count, 33);
+    ck_assert_ptr_nonnull(strstr(error.text, "more than 32 parameters"));
+    ck_assert_int_eq(imp_builder_parameter(builder, "p0", 0, 1, &error), IMP_ERROR_SCENE);
+    ck_assert_ptr_nonnull(strstr(error.text, "'p0' is given twice"));
+    imp_builder_free(builder);
+}
+END_TEST
+
 START_TEST(a_query_about_one_pose_is_refused)
 {
     imp_error error;
@@ -437,6 +457,7 @@ int main(void)
     tcase_add_loop_test(tcase, no_sample_is_nearer_than_what_is_proved_of_its_box, 0, 4);
     tcase_add_loop_test(tcase, wrong_clocks_and_parameters_are_refused, 0,
                         (int)(sizeof wrong / sizeof *wrong));
+    tcase_add_test(tcase, more_parameters_than_a_search_can_handle_are_refused);
     tcase_add_test(tcase, a_query_about_one_pose_is_refused);
     suite_add_tcase(suite, tcase);
     SRunner *runner = srunner_create(suite);

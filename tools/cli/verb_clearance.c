@@ -380,6 +380,8 @@ const verb verb_clearance = {
         "nearer than its lower end bodies never come, which is proved; its upper end is the\n"
         "distance of two points of them at one time. What is no farther apart than gamma touches.\n"
         "\n"
+        "Where a scene has parameters the answer is about all their values.\n"
+        "\n"
         "--require D answers holds, violated, with the earliest time, or undecided. It ends as "
         "soon\n"
         "as that is known, with the bracket as it is then; with --tolerance or --profile it goes "
