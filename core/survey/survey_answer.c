@@ -26,7 +26,7 @@ FP_APART static imp_result result_of(const imp_survey *s)
     r.struct_size = (uint32_t)sizeof r;
     r.verdict = s->verdict;
     r.reason = s->reason;
-    r.t_lower = s->how.any && is_contact ? r.t : t_lower_of(s);
+    r.t_lower = t_lower_of(s); /* with `any`, another contact may be earlier than t */
     r.gamma = s->gamma;
     r.gamma_clear = s->gamma_clear;
     r.stats = s->stats;

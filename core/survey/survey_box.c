@@ -88,7 +88,9 @@ static imp_options options_of_query(imp_survey *s, double t_start, double t_end)
     options.t_end = t_end;
     options.progress = report;
     options.progress_context = s;
-    if (options.max_pairs > 0) options.max_pairs -= s->stats.pairs;
+    if (options.max_pairs > 0) /* 0 would be no limit */
+        options.max_pairs =
+            s->stats.pairs < options.max_pairs ? options.max_pairs - s->stats.pairs : 1;
     if (options.max_seconds > 0) {
         options.max_seconds -= survey_seconds(s);
         if (!(options.max_seconds > 0)) options.max_seconds = 0x1p-1000;

@@ -425,6 +425,51 @@ START_TEST(more_parameters_than_a_search_can_handle_are_refused)
 }
 END_TEST
 
+/* What is proved of an ended survey holds, and it goes on where it ended. */
+START_TEST(a_survey_ends_at_a_limit_of_pairs)
+{
+    imp_error error;
+    imp_scene *scene = scene_of(ARMS("[-1,1]", "[-1,1]"));
+    imp_options options = imp_options_default(scene);
+    imp_clearance_options asked = imp_clearance_options_default();
+    for (uint64_t pairs = 1; pairs < 2000; pairs += 1 + pairs / 2) {
+        imp_clearance found = {.struct_size = sizeof found};
+        options.max_pairs = pairs;
+        imp_survey *s = imp_survey_new(scene, &options, &asked, NULL, &error);
+        ck_assert_msg(s != NULL, "%s", error.text);
+        ck_assert_int_eq(imp_survey_step(s, 0, &error), IMP_SUCCESS);
+        ck_assert_int_eq(imp_survey_get_clearance(s, &found, &error), IMP_SUCCESS);
+        ck_assert_int_eq(found.reason, IMP_REASON_PAIRS);
+        ck_assert_uint_ge(found.stats.pairs, pairs);
+        ck_assert_uint_le(found.stats.pairs, pairs + 100);
+        ck_assert_double_le(found.lower, 0.1);
+        ck_assert_double_ge(found.upper, 0.1);
+        imp_survey_free(s);
+    }
+    imp_scene_free(scene);
+}
+END_TEST
+
+START_TEST(a_survey_that_is_cancelled_goes_on)
+{
+    imp_error error;
+    imp_scene *scene = scene_of(ARMS("[-1,1]", "[-1,1]"));
+    const imp_options options = imp_options_default(scene);
+    imp_result found = {.struct_size = sizeof found};
+    imp_survey *s = imp_survey_new(scene, &options, NULL, NULL, &error);
+    ck_assert_msg(s != NULL, "%s", error.text);
+    imp_survey_cancel(s);
+    ck_assert_int_eq(imp_survey_step(s, 0, &error), IMP_SUCCESS);
+    ck_assert_int_eq(imp_survey_get_result(s, &found, &error), IMP_SUCCESS);
+    ck_assert_int_eq(found.reason, IMP_REASON_CANCELLED);
+    ck_assert_int_eq(imp_survey_step(s, 0, &error), IMP_SUCCESS);
+    ck_assert_int_eq(imp_survey_get_result(s, &found, &error), IMP_SUCCESS);
+    ck_assert_int_eq(found.verdict, IMP_VERDICT_CLEAR);
+    imp_survey_free(s);
+    imp_scene_free(scene);
+}
+END_TEST
+
 START_TEST(a_query_about_one_pose_is_refused)
 {
     imp_error error;
@@ -458,6 +503,8 @@ int main(void)
     tcase_add_loop_test(tcase, wrong_clocks_and_parameters_are_refused, 0,
                         (int)(sizeof wrong / sizeof *wrong));
     tcase_add_test(tcase, more_parameters_than_a_search_can_handle_are_refused);
+    tcase_add_test(tcase, a_survey_ends_at_a_limit_of_pairs);
+    tcase_add_test(tcase, a_survey_that_is_cancelled_goes_on);
     tcase_add_test(tcase, a_query_about_one_pose_is_refused);
     suite_add_tcase(suite, tcase);
     SRunner *runner = srunner_create(suite);
