@@ -67,6 +67,7 @@ tools_bench = \
     tools/bench/cases.c \
     tools/bench/columns.c tools/bench/columns.h \
     tools/bench/conformal.c \
+    tools/bench/parameters.c \
     tools/bench/crowd.c tools/bench/crowd.h \
     tools/bench/crowds.c \
     tools/bench/everyday.c tools/bench/everyday.h \

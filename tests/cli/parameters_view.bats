@@ -68,3 +68,15 @@ setup() {
     fails 2 '--at must be a finite number' "$IMPINGE" view "$data/spindle.json" -o x.png --at b=1,1,2
     [ ! -e x.png ]
 }
+
+@test "what all angles of joints cost is measured" {
+    run -0 "$IMPINGE" bench parameters --repeat 1 --max-pairs 20000 --json
+    valid bench
+    pairs() {
+        jq -e --arg case "$1" --argjson most "$2" '.sets[0].cases[] | select(.case == $case).methods[0] |
+            .verdicts.clear == 1 and .pairs.max <= $most' <<<"$output"
+    }
+    pairs '1 joint, c = 0.0001' 100
+    pairs '2 joints, c = 0.1' 2000
+    pairs '3 joints, c = 0.1' 20000
+}

@@ -165,7 +165,8 @@ const bench_set *bench_set_find(const char *name);
 
 /* Machine parts that slide in each other; everyday scenes; scenes of many bodies; meshes of many
  * triangles; streams of scenes. */
-extern const bench_set bench_conformal, bench_everyday, bench_bodies, bench_surfaces, bench_batch;
+extern const bench_set bench_conformal, bench_parameters, bench_everyday, bench_bodies,
+    bench_surfaces, bench_batch;
 
 /* Whether the request measures any method of the set. */
 bool bench_set_is_measured(const bench_set *set, const bench_request *request);

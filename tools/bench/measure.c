@@ -59,6 +59,21 @@ static imp_code run(imp_query *query, imp_result *result, double *seconds, imp_e
     return code;
 }
 
+/* Answers a scene with parameters for all values; the counts are those of all its boxes. */
+static imp_code run_survey(imp_scene *scene, const imp_options *options, imp_result *result,
+                           double *seconds, imp_error *error)
+{
+    imp_survey *survey = imp_survey_new(scene, options, NULL, NULL, error);
+    if (survey == NULL) return error->code;
+    const double start = seconds_computed();
+    imp_code code = imp_survey_step(survey, 0, error);
+    *seconds = seconds_computed() - start;
+    *result = (imp_result){.struct_size = (uint32_t)sizeof *result};
+    if (code == IMP_SUCCESS) code = imp_survey_get_result(survey, result, error);
+    imp_survey_free(survey);
+    return code;
+}
+
 /* Clear: the minimum distance is known, or what is required is kept. */
 static imp_verdict verdict_of(const imp_clearance *answer, double gamma)
 {
@@ -133,6 +148,11 @@ static imp_code solve_once(imp_registry *registry, const bench_scene *s, const b
     imp_options options = options_of(scene, c, m, request);
     imp_clearance answer;
     double least = 0;
+    if (imp_scene_parameter_count(scene) > 0) {
+        const imp_code surveyed = run_survey(scene, &options, result, seconds, error);
+        imp_scene_free(scene);
+        return surveyed;
+    }
     imp_code code = cut_interval(registry, s, c, &options, error);
     if (code == IMP_SUCCESS && (m->question == BENCH_DECISION || m->question == BENCH_PROOF))
         code = find_least(registry, s, &options, &least, error);
