@@ -132,23 +132,15 @@ static imp_code put_chain(file *f, size_t body, const surface *s, imp_error *err
     return IMP_SUCCESS;
 }
 
-/* A name is any text, but a line holds no control bytes. */
-static void put_name(file *f, const char *name)
-{
-    put(f, "body ");
-    for (const char *at = name; *at != '\0'; ++at) {
-        const unsigned char c = (unsigned char)*at;
-        put_bytes(f, c < ' ' || c == 127 ? "?" : at, 1);
-    }
-    put(f, "\n");
-}
-
 static imp_code put_scene(file *f, imp_error *error)
 {
     const size_t bodies = scene_body_count(f->scene);
     imp_code code = IMP_SUCCESS;
     for (size_t b = 0; b < bodies; ++b) {
-        put_name(f, imp_scene_body_name(f->scene, b));
+        const char *name = imp_scene_body_name(f->scene, b);
+        put(f, "body ");
+        put_bytes(f, name, strlen(name)); /* of any length */
+        put(f, "\n");
         for (size_t k = 0; k < scene_surface_count(f->scene, b) && code == IMP_SUCCESS; ++k)
             code = put_chain(f, b, scene_surface(f->scene, b, k), error);
     }

@@ -93,6 +93,20 @@ near='sphere center=2.01,0.1,0.2'
     [[ $output == *"--proof and --each exclude each other"* ]]
 }
 
+@test "certificates of an arm, of a teapot and a torus, and of meshes that roll by hold" {
+    "$IMPINGE" clearance "$top_srcdir"/tools/data/arm.json --require 2 --proof arm.proof
+    "$IMPINGE" solve "$top_srcdir"/tools/data/teapot.json --proof teapot.proof
+    printf 'v %s\n' '1 0 0' '0 1 0' '-1 0 0' '0 -1 0' '0 0 1' '0 0 -1' >gem.obj
+    printf 'f %s\n' '1 2 5' '2 3 5' '3 4 5' '4 1 5' '2 1 6' '3 2 6' '4 3 6' '1 4 6' >>gem.obj
+    "$IMPINGE" pair 'mesh file=gem.obj ! rotate axis=0,0,1 rate=2' \
+        'mesh file=gem.obj ! rotate axis=1,2,3 rate=1 ! translate offset=[[2.5,0.2,0.1],[-1,0,0]]' \
+        --gamma 1e-3 --proof gems.proof
+    for name in arm teapot gems; do
+        run -0 verify "$name.proof" --quiet
+        [ "$output" = holds ]
+    done
+}
+
 # Each type beside, or each map under, a ball that passes by.
 @test "certificates of every type and map hold, or say whose formula is missing" {
     local kind name example a
