@@ -30,7 +30,12 @@ static stage_times times_of(const shared_instance *p, const value_box *box)
     const shared_instance *own = p->inner != NULL ? p->inner : p;
     if (!(t.lo >= own->lo[2])) t.lo = own->lo[2];
     if (!(t.hi <= own->hi[2])) t.hi = own->hi[2];
-    if (!(t.lo <= t.hi)) t.lo = t.hi; /* it does not exist at these times */
+    if (!(t.lo <= t.hi)) { /* it does not exist at these times: the nearest at which it does */
+        if (t.lo > own->hi[2])
+            t.lo = t.hi;
+        else
+            t.hi = t.lo;
+    }
     t.middle = 0.5 * t.lo + 0.5 * t.hi;
     if (!(t.middle >= t.lo)) t.middle = t.lo;
     if (!(t.middle <= t.hi)) t.middle = t.hi;

@@ -123,6 +123,9 @@ FP_APART static imp_code fill(imp_survey *s, imp_scene *scene, const imp_options
     if (code == IMP_SUCCESS && how != NULL)
         code = sized_read("imp_survey_options", &s->how, how, HOW_FIRST, error);
     if (code == IMP_SUCCESS) code = check_options(scene, &s->options, error);
+    if (code == IMP_SUCCESS)
+        code =
+            examined_times_find(scene, s->options.t_start, s->options.t_end, &s->examined, error);
     if (code == IMP_SUCCESS) code = check_asked(&s->asked, error);
     if (code == IMP_SUCCESS) code = check_bodies(scene, s->how.body, error);
     if (code == IMP_SUCCESS && !make_room(s)) code = error_set_memory(error);

@@ -30,8 +30,11 @@ FP_APART static imp_result result_of(const imp_survey *s)
     r.gamma = s->gamma;
     r.gamma_clear = s->gamma_clear;
     r.stats = s->stats;
-    r.t_start = r.t_examined[0] = s->options.t_start;
-    r.t_end = r.t_examined[1] = s->options.t_end;
+    r.t_start = s->options.t_start;
+    r.t_end = s->options.t_end;
+    const bool any = s->examined.lo <= s->examined.hi;
+    r.t_examined[0] = any ? s->examined.lo : NAN;
+    r.t_examined[1] = any ? s->examined.hi : NAN;
     return r;
 }
 

@@ -6,6 +6,7 @@
 #include <math.h>
 #include <stdatomic.h>
 
+#include "core/broad_phase/examined_times.h"
 #include "core/scene/scene.h"
 #include "core/surface/surface_shift.h"
 #include "core/survey/box_queue.h"
@@ -65,7 +66,8 @@ struct imp_survey {
     bool is_distance;  /* for a bracket; else for the earliest contact, or any */
     imp_clearance_options asked;
     double gamma, gamma_clear; /* of the search for a contact */
-    size_t count;              /* of parameters */
+    examined_times examined;
+    size_t count;          /* of parameters */
     double *lo, *hi;       /* their ranges, one block with the incumbent's values and the view */
     double *at, *shift[3]; /* of the box being asked about: its middle; shifts of both bodies and
                                   of one of their surfaces */

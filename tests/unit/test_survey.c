@@ -171,6 +171,55 @@ START_TEST(what_rests_for_a_while_keeps_time)
 }
 END_TEST
 
+#define FROM_8_TO_9(SURFACE, MAP)                                                                  \
+    "{'parameters':{'e':[0,1]},'bodies':[{'surfaces':[" SURFACE "],'maps':[" MAP                   \
+    "{'type':'translate','velocity':[1,0,0],'clock':'e'}]},"                                       \
+    "{'surfaces':[{'type':'point','position':[9,0.5,0]}]}]}"
+
+/* Returns NULL if it is refused. */
+static imp_survey *survey_from(imp_scene *scene, double t_start, double t_end, imp_error *error)
+{
+    imp_options options = imp_options_default(scene);
+    options.t_start = t_start;
+    options.t_end = t_end;
+    return imp_survey_new(scene, &options, NULL, NULL, error);
+}
+
+/* Nothing is proved of times at which a map is undefined, though the bodies are far apart. */
+START_TEST(times_at_which_a_map_is_undefined_are_refused)
+{
+    imp_error error;
+    imp_scene *scene = scene_of(FROM_8_TO_9(
+        "{'type':'sphere'}", "{'type':'keyframes','times':[8,9],'positions':[[0,0,0],[1,0,0]]},"));
+    ck_assert_ptr_null(survey_from(scene, 7, 9, &error));
+    ck_assert_int_eq(error.code, IMP_ERROR_SCENE);
+    ck_assert_ptr_nonnull(strstr(error.text, "is defined from t = 8 to 9 only"));
+    imp_survey *s = survey_from(scene, 8, 9, &error);
+    ck_assert_msg(s != NULL, "%s", error.text);
+    imp_survey_free(s);
+    imp_scene_free(scene);
+}
+END_TEST
+
+/* A surface that does not exist yet is not asked for its place. */
+START_TEST(a_surface_that_does_not_exist_touches_nothing)
+{
+    static const double times[2][2] = {{0, 5}, {9.5, 11}};
+    imp_scene *scene =
+        scene_of(FROM_8_TO_9("{'type':'formula','time':[8,9],'x':'u + log(t - 7.9)'}", ""));
+    imp_error error;
+    imp_result result = {.struct_size = sizeof result};
+    imp_survey *s = survey_from(scene, times[_i][0], times[_i][1], &error);
+    ck_assert_msg(s != NULL, "%s", error.text);
+    ck_assert_int_eq(imp_survey_step(s, 8, &error), IMP_SUCCESS);
+    ck_assert_int_eq(imp_survey_get_result(s, &result, &error), IMP_SUCCESS);
+    ck_assert_int_eq(result.verdict, IMP_VERDICT_CLEAR);
+    ck_assert(isnan(result.t_examined[0]) && isnan(result.t_examined[1]));
+    imp_survey_free(s);
+    imp_scene_free(scene);
+}
+END_TEST
+
 /* --- Clocks ----------------------------------------------------------------------------------- */
 
 START_TEST(the_clock_time_changes_no_bit)
@@ -497,6 +546,8 @@ int main(void)
     tcase_add_test(tcase, the_earliest_contact_is_that_of_the_worst_values);
     tcase_add_test(tcase, a_common_parent_takes_no_part);
     tcase_add_test(tcase, what_rests_for_a_while_keeps_time);
+    tcase_add_test(tcase, times_at_which_a_map_is_undefined_are_refused);
+    tcase_add_loop_test(tcase, a_surface_that_does_not_exist_touches_nothing, 0, 2);
     tcase_add_test(tcase, the_clock_time_changes_no_bit);
     tcase_add_test(tcase, a_scene_at_values_stands_where_time_would_put_it);
     tcase_add_loop_test(tcase, no_sample_is_nearer_than_what_is_proved_of_its_box, 0, 4);
