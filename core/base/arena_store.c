@@ -9,8 +9,8 @@
 
 #include "core/base/arena.h"
 
-/* Of two nets, two sorts of nodes, shapes and spans at several capacities: more than one scene of a
- * few bodies has. */
+/* Blocks that are kept: one scene of a few bodies has fewer sorts of nets, nodes, shapes and spans,
+ * at several capacities. */
 enum { SLOTS = 64 };
 
 struct arena_store {

@@ -825,7 +825,8 @@ IMP_EXPORT imp_code imp_clearance_get(const imp_query *query, size_t index, imp_
  * it is proved, like any answer:
  *
  *   (a) at no values do points of two bodies come nearer than gamma_clear before t_lower;
- *   (b) CONTACT: at the values answered the witness is no farther apart than gamma, at t == t_lower;
+ *   (b) CONTACT: at the values answered the witness is no farther apart than gamma, at
+ *       t == t_lower;
  *   (c) CLEAR: at no values do they come nearer than gamma_clear;
  *   (d) a clearance: at no values nearer than `lower`; at the values answered the witness's points
  *       are no farther than `upper` apart.

@@ -29,7 +29,7 @@ typedef enum inside_state {
     INSIDE_NOBODY,  /* unless surfaces of the two are nearer than gamma_clear then */
     INSIDE_FOUND,   /* and nothing else is said of the surfaces */
     INSIDE_UNKNOWN, /* a part is so near to the solid's surfaces that models do not tell */
-    INSIDE_STOPPED /* by the watch, or since much memory is needed, which is now counted; ask again */
+    INSIDE_STOPPED  /* by the watch, or as much memory is needed, now counted; ask again */
 } inside_state;
 
 typedef struct inside_answer {

@@ -209,9 +209,9 @@ static imp_status image_of_box(const step *s, const reach *r, reach *to)
 }
 
 /* Lemma. With c the ball's centre and m the middle of the times, |phi(x, t) - phi(c, m)| <=
- * |phi(x, t) - phi(c, t)| + |phi(c, t) - phi(c, m)|, of which the first is at most the stretch times
- * the radius, the second the speed of the point c times half of the times. c is no point of the
- * box, perhaps: its rates are asked for alone. Two products, three sums. */
+ * |phi(x, t) - phi(c, t)| + |phi(c, t) - phi(c, m)|, of which the first is at most the stretch
+ * times the radius, the second the speed of the point c times half of the times. c is no point of
+ * the box, perhaps: its rates are asked for alone. Two products, three sums. */
 PAD_COVERS(16, 2 + 3);
 static imp_status image_of_ball(const step *s, const reach *r, reach *to)
 {

@@ -86,7 +86,7 @@ FP_APART static imp_clearance bracket_of(const imp_survey *s)
     return c;
 }
 
-/* Of a search for any contact at the required distance. */
+/* Returns the answer of a search for any contact at the required distance. */
 FP_APART static imp_clearance decision_of(const imp_survey *s)
 {
     const imp_result *r = &s->best.contact;

@@ -94,7 +94,7 @@ static bool has_size(const piece *p, const part *q)
     return true;
 }
 
-/* Of parts that overlap, one would be left out. */
+/* Whether two parts overlap, so that one of them would be left out. */
 static bool overlap(const part *a, const part *b)
 {
     bool both = true;
