@@ -12,6 +12,8 @@ tools_libproof_la_SOURCES = \
     tools/proof/formula.c tools/proof/formula.h \
     tools/proof/jet.c tools/proof/jet.h \
     tools/proof/jet_functions.c \
+    tools/proof/double_interval.h \
+    tools/proof/ld_ends.h \
     tools/proof/ld_interval.c tools/proof/ld_interval.h \
     tools/proof/polynomial.c tools/proof/polynomial.h \
     tools/proof/reader.c \
@@ -254,7 +256,7 @@ tools_libverify_la_SOURCES = \
     tools/proof/formula.c tools/proof/formula.h \
     tools/proof/jet.c tools/proof/jet.h \
     tools/proof/jet_functions.c \
-    tools/proof/ld_interval.h \
+    tools/proof/ld_ends.h tools/proof/ld_interval.h \
     tools/proof/reader.c \
     tools/proof/steps.h \
     tools/verify/apart.c tools/verify/apart.h \

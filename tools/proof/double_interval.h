@@ -5,6 +5,8 @@
 
 #include <float.h>
 
+#include "tools/proof/ld_ends.h"
+
 /* The operations of the verifier's intervals
  * ==========================================
  * ld_interval.h, which includes this, in doubles, which are rounded to nearest (IEEE 754);
