@@ -1,6 +1,11 @@
 /* SPDX-FileCopyrightText: The Impinge authors
  * SPDX-License-Identifier: Apache-2.0 */
-#ifndef TOOLS_PROOF_DOUBLE_INTERVAL_H
+#ifndef TOOLS_PROOF_LD_INTERVAL_H /* it stands alone: ld_interval.h includes it in its place */
+#ifndef PROOF_DOUBLE
+#define PROOF_DOUBLE
+#endif
+#include "tools/proof/ld_interval.h"
+#elif !defined(TOOLS_PROOF_DOUBLE_INTERVAL_H)
 #define TOOLS_PROOF_DOUBLE_INTERVAL_H
 
 #include <float.h>
