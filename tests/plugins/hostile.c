@@ -189,7 +189,8 @@ static void commit(const char *sin)
     if (strcmp(sin, "quick_exit") == 0) quick_exit(0);
     if (strcmp(sin, "pthread_exit") == 0) pthread_exit(NULL);
     if (strcmp(sin, "hang") == 0) hang();
-    while (strcmp(sin, "spin") == 0) continue;
+    if (strcmp(sin, "spin") == 0)
+        for (;;) continue; /* no compiler may leave out a loop whose condition is constant */
     if (strcmp(sin, "fork") == 0) fork();
     if (strcmp(sin, "later") == 0) leave_crashing_thread();
     if (strcmp(sin, "thread_data") == 0) leave_thread_data();
