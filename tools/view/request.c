@@ -99,8 +99,8 @@ static exit_status read_at(const arguments *args, view_request *request)
     if (is_one && (strcmp(time, "nearest") == 0 || strcmp(time, "contact") == 0))
         return EXIT_ANSWERED;
     return complain(EXIT_USAGE, args->verb->name,
-                    "--at must be a finite number, or 'nearest', and values of parameters, "
-                    "NAME=VALUE, not '%s'",
+                    "--at must be a finite number, or 'nearest', not '%s' (values of parameters, "
+                    "NAME=VALUE, may stand beside it)",
                     value->text);
 }
 
