@@ -855,7 +855,7 @@ typedef void (*imp_survey_sink)(void *context, const imp_survey_box *box);
 typedef struct imp_survey_options {
     uint32_t struct_size; /* sizeof(imp_survey_options); grows at the end */
     bool any;             /* end with any contact; t_lower then tells what may be earlier */
-    size_t body[2];       /* only these two bodies; SIZE_MAX, SIZE_MAX: all */
+    size_t body[2];       /* only these two bodies, which have surfaces; SIZE_MAX twice: all */
     uint64_t max_boxes;   /* boxes asked about; 0: no limit */
     imp_survey_sink sink; /* takes boxes as they are proved and, in the end, those left; NULL */
     void *sink_context;

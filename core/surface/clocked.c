@@ -287,7 +287,7 @@ shared_instance *clocked_new(shared_instance *inner, size_t clock, double value)
 {
     shared_instance *p = inner->surface != NULL ? surface_at(inner, value) : map_at(inner, value);
     if (p == NULL) return NULL;
-    p->clock = clock;
+    p->clock = (uint32_t)clock;
     p->inner = instance_hold(inner);
     p->given = inner->piece_count * sizeof(clocked_surface);
     if (inner->note == NULL || instance_set_note(p, inner->note_count, inner->note)) return p;

@@ -5,6 +5,7 @@
 
 #include <pthread.h>
 #include <stdatomic.h>
+#include <stdint.h>
 
 #include <impinge/impinge.h>
 
@@ -49,6 +50,7 @@ typedef struct shared_instance {
     const void **pieces; /* instances that `self` owns and that replace it; NULL: one surface */
     size_t piece_count;  /* 0: one surface */
     imp_status breach;   /* other than IMP_STATUS_OK: its domain breaks the ABI, only release it */
+    uint32_t clock;      /* if there is an `inner`: the index of its parameter in the scene */
     size_t given;        /* bytes of the values and files it was made from, about what it keeps */
     char *label; /* as on a command line, shortened: "sphere radius=2"; NULL: its type's name */
     size_t label_size;     /* bytes, including the final NUL */
@@ -58,7 +60,6 @@ typedef struct shared_instance {
     instance_shelf *shelf; /* of a surface of several pieces; else NULL */
     /* Under the clock of a scene parameter (clocked.h); held. NULL: it follows time. */
     struct shared_instance *inner;
-    size_t clock; /* the parameter's index in the scene */
 } shared_instance;
 
 /* Take ownership of the instance `self` and get its domain, or those of its pieces, which have the

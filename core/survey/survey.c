@@ -49,10 +49,16 @@ static imp_code check_bodies(const imp_scene *scene, const size_t body[2], imp_e
 {
     const size_t count = scene_body_count(scene);
     if (body[0] == SIZE_MAX && body[1] == SIZE_MAX) return IMP_SUCCESS;
-    if (body[0] < count && body[1] < count && body[0] != body[1]) return IMP_SUCCESS;
-    return error_set(error, IMP_ERROR_USAGE,
-                     "body: got %zu and %zu, must be two of the scene's %zu, or SIZE_MAX twice",
-                     body[0], body[1], count);
+    if (body[0] >= count || body[1] >= count || body[0] == body[1])
+        return error_set(error, IMP_ERROR_USAGE,
+                         "body: got %zu and %zu, must be two of the scene's %zu, or SIZE_MAX twice",
+                         body[0], body[1], count);
+    for (int side = 0; side < 2; ++side)
+        if (scene_surface_count(scene, body[side]) == 0)
+            return error_set(error, IMP_ERROR_USAGE,
+                             "body: got %zu, which has no surfaces and touches nothing",
+                             body[side]);
+    return IMP_SUCCESS;
 }
 
 static imp_code check_asked(const imp_clearance_options *asked, imp_error *error)

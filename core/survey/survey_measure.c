@@ -2,15 +2,23 @@
  * SPDX-License-Identifier: Apache-2.0 */
 #include <config.h>
 
+#include <math.h>
+
 #include "core/base/rounding.h"
 #include "core/base/status.h"
 #include "core/survey/survey_internal.h"
 
+/* The greater; INFINITY where `one` is NaN, which no later number replaces. `most` is no NaN. */
+static double greater(double most, double one)
+{
+    return one <= most ? most : isnan(one) ? INFINITY : one;
+}
+
 static void join_image(surface_image *all, const surface_image *one)
 {
     for (int i = 0; i < 3; ++i) {
-        if (!(one->lo[i] >= all->lo[i])) all->lo[i] = one->lo[i];
-        if (!(one->hi[i] <= all->hi[i])) all->hi[i] = one->hi[i];
+        all->lo[i] = -greater(-all->lo[i], -one->lo[i]);
+        all->hi[i] = greater(all->hi[i], one->hi[i]);
     }
     all->follows_time = all->follows_time || one->follows_time;
 }
@@ -48,8 +56,7 @@ static imp_code measure_body(imp_survey *s, size_t body, size_t left_out, const 
             return surface_set_code(status, error);
         }
         join_image(all, &image);
-        for (size_t j = 0; j < s->count; ++j)
-            if (!(one[j] <= most[j])) most[j] = one[j];
+        for (size_t j = 0; j < s->count; ++j) most[j] = greater(most[j], one[j]);
     }
     return IMP_SUCCESS;
 }

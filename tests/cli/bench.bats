@@ -189,7 +189,7 @@ counts() { jq 'del(.. | .seconds?)' <<<"$output"; }
     run -0 --separate-stderr "$IMPINGE" bench --method paper --max-pairs 1 --repeat 1 --json
     valid bench
     json '[.sets[].set] == ["figure7", "bicubic", "spikes", "tori", "rates", "moving"]'
-    [ "$(grep -c 'is for the default method only, and left out' <<<"$stderr")" -eq 6 ]
+    [ "$(grep -c 'is for the default method only, and left out' <<<"$stderr")" -eq 7 ]
     [[ $stderr == *"set 'bodies'"* ]]
 }
 

@@ -246,7 +246,7 @@ examples=share/doc/impinge/sdk/examples
 
 @test "every example builds, is loaded, and the command that info proposes finds an answer" {
     local file name
-    [ "$(find "$prefix/$examples" -type f | wc -l)" -eq 6 ]
+    [ "$(find "$prefix/$examples" -type f | wc -l)" -eq 7 ]
     for file in "$prefix/$examples"/*; do
         run -0 --separate-stderr impinge build "$file"
         [ -z "$stderr" ] # no warning

@@ -120,14 +120,15 @@ START_TEST(unknown_keys_are_refused_with_the_nearest)
     assert_wrong(SCENE(",'gama':1"),
                  "s.json: /gama: unknown key, did you mean 'gamma'? "
                  "Valid keys are time, gamma, gamma_clear, define, bodies, ignore, "
-                 "id, reference, note, gravity, events, plugins");
+                 "id, reference, note, gravity, events, plugins, parameters");
     assert_wrong("{'bodies':[{'surface':[" KIT "]}]}",
                  "s.json: /bodies/0/surface: unknown key, did you mean 'surfaces'? Valid keys "
                  "are name, surfaces, maps, parent, group, solid, mass, inertia, center, "
                  "friction, restitution, velocity, spin");
-    assert_wrong(SCENE(",'comment':1"),
-                 "s.json: /comment: unknown key; valid keys are time, gamma, gamma_clear, "
-                 "define, bodies, ignore, id, reference, note, gravity, events, plugins");
+    assert_wrong(
+        SCENE(",'comment':1"),
+        "s.json: /comment: unknown key; valid keys are time, gamma, gamma_clear, "
+        "define, bodies, ignore, id, reference, note, gravity, events, plugins, parameters");
 }
 END_TEST
 

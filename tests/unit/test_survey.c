@@ -533,6 +533,27 @@ START_TEST(a_query_about_one_pose_is_refused)
 }
 END_TEST
 
+START_TEST(bodies_that_cannot_touch_are_refused)
+{
+    imp_error error;
+    imp_scene *scene = scene_of("{'bodies':[{'surfaces':[{'type':'sphere'}]},{'name':'frame'},"
+                                "{'surfaces':[{'type':'sphere','center':[1,0,0]}]}]}");
+    const imp_options options = imp_options_default(scene);
+    imp_survey_options how = imp_survey_options_default();
+    how.body[0] = 0;
+    for (how.body[1] = 0; how.body[1] < 4; how.body[1] += how.body[1] == 1 ? 2 : 1) {
+        ck_assert_ptr_null(imp_survey_new(scene, &options, NULL, &how, &error));
+        ck_assert_int_eq(error.code, IMP_ERROR_USAGE);
+        ck_assert_ptr_nonnull(strstr(error.text, "body: got "));
+    }
+    how.body[1] = 2;
+    imp_survey *survey = imp_survey_new(scene, &options, NULL, &how, &error);
+    ck_assert_msg(survey != NULL, "%s", error.text);
+    imp_survey_free(survey);
+    imp_scene_free(scene);
+}
+END_TEST
+
 static const char TITLE[] = "survey";
 
 int main(void)
@@ -557,6 +578,7 @@ int main(void)
     tcase_add_test(tcase, a_survey_ends_at_a_limit_of_pairs);
     tcase_add_test(tcase, a_survey_that_is_cancelled_goes_on);
     tcase_add_test(tcase, a_query_about_one_pose_is_refused);
+    tcase_add_test(tcase, bodies_that_cannot_touch_are_refused);
     suite_add_tcase(suite, tcase);
     SRunner *runner = srunner_create(suite);
     srunner_run_all(runner, CK_ENV);

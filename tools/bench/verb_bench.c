@@ -268,9 +268,8 @@ const verb verb_bench = {
     .operand_word = set_name,
     .summary = "Measure the methods side by side",
     .details = "Each SET of scenes (all, if none is named) is answered by the default method and, "
-               "but for the "
-               "last\n"
-               "six, by the paper's, each scene afresh:\n"
+               "but for the last\n"
+               "seven, by the paper's, each scene afresh:\n"
                "\n"
                "  figure7  two spheres, ever nearer, proved not to touch\n"
                "  bicubic  100 pairs of random moving patches, with reference answers\n"
@@ -280,6 +279,7 @@ const verb verb_bench = {
                "  moving   spheres in flight, at ever smaller gamma\n"
                "  clearance  least distances, and whether 0.99 of them is kept\n"
                "  conformal  machine parts that slide in each other, ever tighter\n"
+               "  parameters  all values of 1 to 4 joints at once, required ever more closely\n"
                "  everyday  machines as they are built, each with a goal; ends with status 6 where "
                "one is missed\n"
                "  bodies   100 to 100,000 bodies that drift\n"
