@@ -797,7 +797,8 @@ EXTRA_DIST += \
     tests/abi/libimpinge \
     tests/abi/libimpinge_0.abi
 
-# The parts of tools/test --all: all draws of property tests and the release in the first. With clang the
+# The parts of tools/test --all: all draws of property tests and the release in the first, a tenth with
+# sanitizers, which look for other faults than bounds. With clang the
 # suites in C, which compare bits and bounds. With sanitizers also those scripts whose input reaches C in
 # ways of its own: looks of pictures, pages, terminals, files, budgets and many processes are the first
 # part's. AddressSanitizer handles stack overflows and ends of threads itself, before the command can.
@@ -812,7 +813,7 @@ check-all:
 check-clang:
 	$(MAKE) check TESTS='$(clang_suites)'
 check-sanitized:
-	$(MAKE) check TESTS='$(sanitized_suites)'
+	IMPINGE_TEST_MULTIPLIER=$${IMPINGE_TEST_MULTIPLIER-0.1} $(MAKE) check TESTS='$(sanitized_suites)'
 
 # How many suites each of these runs, for tools/test.
 .PHONY: count-check count-check-all count-check-clang count-check-sanitized
