@@ -339,11 +339,12 @@ static void add_map(uint64_t *r, char *text, size_t size, bool last)
 
 static void add_body(uint64_t *r, char *text, size_t size, double x)
 {
-    static const char *const shapes[] = {"'type':'sphere','radius':0.5",
-                                         "'type':'torus','major_radius':0.5,'minor_radius':0.2",
-                                         "'type':'capsule','radius':0.2,'from':[0,0,-0.5],'to':"
-                                         "[0,0,0.5]",
-                                         "'type':'box','size':[0.5,0.4,0.8]"};
+    static const char *const shapes[] = {
+        "'type':'sphere','radius':0.5",
+        "'type':'torus','major_radius':0.5,'minor_radius':0.2",
+        "'type':'capsule','radius':0.2,'from':[0,0,-0.5],'to':[0,0,0.5]",
+        "'type':'box','size':[0.5,0.4,0.8]",
+    };
     snprintf(text + strlen(text), size - strlen(text), "{'surfaces':[{%s}],'maps':[",
              shapes[(int)(3.999 * random_fraction(r))]);
     const int maps = 1 + (int)(2.999 * random_fraction(r));
