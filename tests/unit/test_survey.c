@@ -239,11 +239,20 @@ START_TEST(the_clock_time_changes_no_bit)
         const imp_options options = imp_options_default(scene);
         found[k] = (imp_result){.struct_size = sizeof found[k]};
         ck_assert_int_eq(imp_scene_solve(scene, &options, &found[k], &error), IMP_SUCCESS);
-        found[k].stats.seconds = 0;
-        found[k].stats.bytes = 0; /* of labels, too */
         imp_scene_free(scene);
     }
-    ck_assert_mem_eq(&found[0], &found[1], sizeof found[0]);
+    /* By member: a struct's padding has any bits. */
+    const imp_result *x = &found[0], *y = &found[1];
+    ck_assert_int_eq(x->verdict, IMP_VERDICT_CONTACT);
+    ck_assert_int_eq(y->verdict, IMP_VERDICT_CONTACT);
+    ck_assert(x->t == y->t && x->t_lower == y->t_lower && x->gap == y->gap);
+    ck_assert_mem_eq(&x->a, &y->a, sizeof x->a);
+    ck_assert_mem_eq(&x->b, &y->b, sizeof x->b);
+    ck_assert_mem_eq(x->normal, y->normal, sizeof x->normal);
+    ck_assert_uint_eq(x->stats.pairs, y->stats.pairs);
+    ck_assert_uint_eq(x->stats.nodes, y->stats.nodes);
+    ck_assert_uint_eq(x->stats.peak_heap, y->stats.peak_heap);
+    ck_assert_uint_eq(x->stats.witness_searches, y->stats.witness_searches);
 }
 END_TEST
 
