@@ -170,10 +170,11 @@ static imp_code refuse_clock(const scene_instances *p, const json_t *clock, cons
         return place_error(&member, p->error, IMP_ERROR_SCENE,
                            "got \"%.80s\", which is not in \"parameters\"; did you mean '%s'?",
                            name, search.best);
-    return place_error(&member, p->error, IMP_ERROR_SCENE,
-                       "got \"%.80s\", which is no parameter; must be \"time\" or a name from the "
-                       "scene's \"parameters\": {\"%.80s\": [lo, hi]}",
-                       name, name);
+    return place_error(
+        &member, p->error, IMP_ERROR_SCENE,
+        "got \"%.80s\", which is not a parameter; must be \"time\" or a name from the "
+        "scene's \"parameters\": {\"%.80s\": [lo, hi]}",
+        name, name);
 }
 
 /* Puts what follows a clock, and is held at the middle of its range, in the place of an

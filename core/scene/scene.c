@@ -568,10 +568,25 @@ void scene_options(const imp_scene *scene, imp_options *options)
     options->t_end = time[1];
 }
 
-imp_code scene_check_times(const imp_scene *scene, double t_start, double t_end, imp_error *error)
+/* NAN twice stands for the scene's own times, which can be wrong. */
+static imp_code check_times(const imp_scene *scene, const imp_options *options, imp_error *error)
 {
     double time[2];
-    return isnan(t_start) && isnan(t_end) ? default_times(scene, time, error) : IMP_SUCCESS;
+    return isnan(options->t_start) && isnan(options->t_end) ? default_times(scene, time, error)
+                                                            : IMP_SUCCESS;
+}
+
+imp_code scene_check_options(const imp_scene *scene, const imp_options *options, imp_error *error)
+{
+    if (check_times(scene, options, error) != IMP_SUCCESS) return IMP_ERROR_SCENE;
+    if (!(options->t_start <= options->t_end && options->t_start > -INFINITY &&
+          options->t_end < INFINITY))
+        return error_set(error, IMP_ERROR_USAGE, "time: got [%g, %g], must be finite and not empty",
+                         options->t_start, options->t_end);
+    if (!(options->max_seconds >= 0))
+        return error_set(error, IMP_ERROR_USAGE, "max_seconds: got %g, must be >= 0",
+                         options->max_seconds);
+    return IMP_SUCCESS;
 }
 
 imp_code imp_options_get_default(const imp_scene *scene, imp_options *options, imp_error *error)
@@ -582,7 +597,7 @@ imp_code imp_options_get_default(const imp_scene *scene, imp_options *options, i
     const imp_code code = sized_check("imp_options", options, SCENE_OPTIONS_FIRST, error);
     if (code != IMP_SUCCESS) return code;
     sized_write(options, &own);
-    return scene_check_times(scene, own.t_start, own.t_end, error);
+    return check_times(scene, &own, error);
 }
 
 /* --- Trees ------------------------------------------------------------------------------------ */

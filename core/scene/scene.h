@@ -94,8 +94,9 @@ imp_code scene_copy_relations(const imp_scene *from, imp_scene *to);
 /* What imp_options_default answers. */
 void scene_options(const imp_scene *scene, imp_options *options);
 
-/* IMP_ERROR_SCENE, and why: both are NAN because the scene has no times to examine. */
-imp_code scene_check_times(const imp_scene *scene, double t_start, double t_end, imp_error *error);
+/* Checks times and max_seconds. IMP_ERROR_SCENE, and why: both times are NAN because the scene has
+ * no times to examine. */
+imp_code scene_check_options(const imp_scene *scene, const imp_options *options, imp_error *error);
 
 /* Bytes of imp_options in the first release. */
 #define SCENE_OPTIONS_FIRST sizeof(imp_options)

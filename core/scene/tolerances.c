@@ -26,3 +26,15 @@ imp_code tolerances_check(double gamma, double gamma_clear, const place *documen
     return place_error(&at, error, code, "got %s, must be from 0 to below gamma = %s",
                        text_of_number(gamma_clear).at, text_of_number(gamma).at);
 }
+
+imp_code tolerances_check_clearance(const imp_clearance_options *asked, imp_error *error)
+{
+    if (!(asked->tolerance >= 1e-9 && asked->tolerance < 1))
+        return error_set(error, IMP_ERROR_USAGE, "tolerance: got %g, must be from 1e-9 to below 1",
+                         asked->tolerance);
+    if (!(asked->required >= 0 && asked->required < INFINITY))
+        return error_set(error, IMP_ERROR_USAGE,
+                         "required: got %g, must be > 0 and finite, or 0 for none",
+                         asked->required);
+    return IMP_SUCCESS;
+}

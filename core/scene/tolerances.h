@@ -16,4 +16,11 @@ double tolerances_clear(double gamma, double gamma_clear);
 imp_code tolerances_check(double gamma, double gamma_clear, const place *document,
                           imp_error *error);
 
+/* Checks the tolerance and the distance required of a clearance. */
+imp_code tolerances_check_clearance(const imp_clearance_options *asked, imp_error *error);
+
+/* A distance that is proved to be at least this large counts as `required`: two bodies that are
+ * exactly as far apart as required could not be decided otherwise. */
+static inline double tolerances_nearly(double required) { return required * (1 - 1e-6); }
+
 #endif

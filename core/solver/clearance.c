@@ -20,7 +20,7 @@
 
 /* Returns the distance that counts as kept: between this and the required one, either verdict is
  * right. */
-static double relaxed(const clearance_search *c) { return c->asked.required * (1 - 1e-6); }
+static double relaxed(const clearance_search *c) { return tolerances_nearly(c->asked.required); }
 
 /* Returns the distance at which the verdict is that it holds: where a proof is kept, half way to
  * what is required, so that the verifier, whose bounds differ, has room. */

@@ -7,6 +7,7 @@
 #include <stdlib.h>
 
 #include "core/base/status.h"
+#include "core/scene/tolerances.h"
 
 /* --- Options and groups ----------------------------------------------------------------------- */
 
@@ -14,13 +15,8 @@ enum { SLICES_MAX = 1000000 };
 
 static imp_code check(const imp_clearance_options *asked, imp_error *error)
 {
-    if (!(asked->tolerance >= 1e-9 && asked->tolerance < 1))
-        return error_set(error, IMP_ERROR_USAGE, "tolerance: got %g, must be from 1e-9 to below 1",
-                         asked->tolerance);
-    if (!(asked->required >= 0 && asked->required < INFINITY))
-        return error_set(error, IMP_ERROR_USAGE,
-                         "required: got %g, must be > 0 and finite, or 0 for none",
-                         asked->required);
+    const imp_code code = tolerances_check_clearance(asked, error);
+    if (code != IMP_SUCCESS) return code;
     if (asked->slices < 1 || asked->slices > SLICES_MAX)
         return error_set(error, IMP_ERROR_USAGE, "slices: got %llu, must be from 1 to %d",
                          (unsigned long long)asked->slices, SLICES_MAX);

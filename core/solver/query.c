@@ -34,21 +34,6 @@ static imp_code check_baseline(uint32_t baseline, imp_error *error)
                      baseline);
 }
 
-/* Checks all options except the tolerances. */
-static imp_code check_options(const imp_scene *scene, const imp_options *options, imp_error *error)
-{
-    if (scene_check_times(scene, options->t_start, options->t_end, error) != IMP_SUCCESS)
-        return IMP_ERROR_SCENE;
-    if (!(options->t_start <= options->t_end && options->t_start > -INFINITY &&
-          options->t_end < INFINITY))
-        return error_set(error, IMP_ERROR_USAGE, "time: got [%g, %g], must be finite and not empty",
-                         options->t_start, options->t_end);
-    if (!(options->max_seconds >= 0))
-        return error_set(error, IMP_ERROR_USAGE, "max_seconds: got %g, must be >= 0",
-                         options->max_seconds);
-    return check_baseline(options->baseline, error);
-}
-
 FP_APART static imp_query *new_query(imp_scene *scene, const imp_options *given, imp_error *error)
 {
     imp_options own;
@@ -60,7 +45,8 @@ FP_APART static imp_query *new_query(imp_scene *scene, const imp_options *given,
         return NULL;
     const double gamma_clear = tolerances_clear(options->gamma, options->gamma_clear);
     if (scene_refuse_parameters(scene, "a query", error) != IMP_SUCCESS) return NULL;
-    if (check_options(scene, options, error) != IMP_SUCCESS) return NULL;
+    if (scene_check_options(scene, options, error) != IMP_SUCCESS) return NULL;
+    if (check_baseline(options->baseline, error) != IMP_SUCCESS) return NULL;
     examined_times examined;
     if (examined_times_find(scene, options->t_start, options->t_end, &examined, error) !=
         IMP_SUCCESS)

@@ -9,7 +9,6 @@
 #include "core/base/sized.h"
 #include "core/base/status.h"
 #include "core/common/clock.h"
-#include "core/scene/tolerances.h"
 #include "core/survey/survey_internal.h"
 
 /* --- What is asked ---------------------------------------------------------------------------- */
@@ -30,15 +29,8 @@ imp_code imp_survey_options_get_default(imp_survey_options *how, imp_error *erro
 
 static imp_code check_options(const imp_scene *scene, const imp_options *options, imp_error *error)
 {
-    if (scene_check_times(scene, options->t_start, options->t_end, error) != IMP_SUCCESS)
-        return IMP_ERROR_SCENE;
-    if (!(options->t_start <= options->t_end && options->t_start > -INFINITY &&
-          options->t_end < INFINITY))
-        return error_set(error, IMP_ERROR_USAGE, "time: got [%g, %g], must be finite and not empty",
-                         options->t_start, options->t_end);
-    if (!(options->max_seconds >= 0))
-        return error_set(error, IMP_ERROR_USAGE, "max_seconds: got %g, must be >= 0",
-                         options->max_seconds);
+    const imp_code code = scene_check_options(scene, options, error);
+    if (code != IMP_SUCCESS) return code;
     if (options->baseline != 0)
         return error_set(error, IMP_ERROR_USAGE, "baseline: got 0x%lx, must be 0 for a survey",
                          (unsigned long)options->baseline);
@@ -66,13 +58,7 @@ static imp_code check_asked(const imp_clearance_options *asked, imp_error *error
     if (asked->each || asked->slices != 1 || asked->within > 0)
         return error_set(error, IMP_ERROR_USAGE,
                          "a survey answers one clearance: each must be false, slices 1, within 0");
-    if (!(asked->tolerance >= 1e-9 && asked->tolerance < 1))
-        return error_set(error, IMP_ERROR_USAGE, "tolerance: got %g, must be from 1e-9 to below 1",
-                         asked->tolerance);
-    if (!(asked->required >= 0 && asked->required < INFINITY))
-        return error_set(error, IMP_ERROR_USAGE, "required: got %g, must be >= 0 and finite",
-                         asked->required);
-    return IMP_SUCCESS;
+    return tolerances_check_clearance(asked, error);
 }
 
 /* --- Creation and destruction ----------------------------------------------------------------- */
@@ -89,7 +75,8 @@ static bool make_room(imp_survey *s)
     s->hi = block + n;
     s->best.values = block + 2 * n;
     for (int k = 0; k < 3; ++k) s->shift[k] = block + (3 + (size_t)k) * n;
-    s->at = block + 6 * n; /* 5 n: middle, lo, hi; lo, hi of a box that is told */
+    s->at = block + 6 * n; /* 5 n numbers: middle, lo and hi of the box that is asked about, then
+                            lo and hi of the box that the sink is told */
     for (size_t k = 0; k < n; ++k) {
         s->lo[k] = scene_parameters_read(s->scene)->at[k].lo;
         s->hi[k] = scene_parameters_read(s->scene)->at[k].hi;
@@ -106,7 +93,7 @@ static void set_aims(imp_survey *s)
     s->gamma_clear = tolerances_clear(s->options.gamma, s->options.gamma_clear);
     if (!decides) return;
     s->gamma = s->asked.required;
-    s->gamma_clear = s->asked.required * (1 - 1e-6);
+    s->gamma_clear = tolerances_nearly(s->asked.required);
     s->how.any = true;
 }
 
@@ -197,8 +184,8 @@ static bool is_decided(const imp_survey *s)
     return first->key >= survey_distance_enough(s) || s->best.distance <= s->gamma;
 }
 
-/* Tells the sink what is left, in the order of keys, and empties the queue unless boxes wait for a
- * longer search. */
+/* Tells the sink which boxes are undecided. They stay in the queue: a later step may decide
+ * them. */
 static void tell_rest(const imp_survey *s)
 {
     for (size_t k = 0; k < s->queue.count; ++k) {

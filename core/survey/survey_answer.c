@@ -73,10 +73,10 @@ FP_APART static imp_clearance bracket_of(const imp_survey *s)
     if (!s->best.is_known) c = (imp_clearance){.t = NAN, .has_witness = false};
     c.lower = lower_of(s);
     c.upper = s->best.distance;
-    c.verdict = !(required > 0)                    ? IMP_REQUIREMENT_NONE
-                : c.upper <= required              ? IMP_REQUIREMENT_VIOLATED
-                : c.lower >= required * (1 - 1e-6) ? IMP_REQUIREMENT_HOLDS
-                                                   : IMP_REQUIREMENT_UNDECIDED;
+    c.verdict = !(required > 0)                          ? IMP_REQUIREMENT_NONE
+                : c.upper <= required                    ? IMP_REQUIREMENT_VIOLATED
+                : c.lower >= tolerances_nearly(required) ? IMP_REQUIREMENT_HOLDS
+                                                         : IMP_REQUIREMENT_UNDECIDED;
     c.t_violated = c.gap_violated = NAN;
     if (c.verdict != IMP_REQUIREMENT_VIOLATED) return c;
     c.t_violated = c.t;

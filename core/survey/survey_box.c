@@ -117,7 +117,8 @@ static query_times times_of(const imp_survey *s, const survey_box *box)
 {
     const size_t swept = s->pairs[box->pair].swept;
     const double t_end = s->best.t < s->options.t_end ? s->best.t : s->options.t_end;
-    if (swept != SIZE_MAX) return (query_times){box->range[2 * swept], box->range[2 * swept + 1]};
+    if (is_swept(&s->pairs[box->pair]))
+        return (query_times){box->range[2 * swept], box->range[2 * swept + 1]};
     if (s->is_distance) return (query_times){s->options.t_start, s->options.t_end};
     return (query_times){box->key, t_end};
 }
@@ -362,7 +363,7 @@ double survey_distance_enough(const imp_survey *s)
     const double upper = s->best.distance, required = s->asked.required;
     if (!(upper < INFINITY)) return INFINITY;
     const double narrow = padded_lower(upper * (1 - s->asked.tolerance), 4);
-    const double kept = required * (1 - 1e-6);
+    const double kept = tolerances_nearly(required);
     return upper > required && kept > narrow && kept <= upper ? kept : narrow;
 }
 

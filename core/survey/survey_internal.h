@@ -8,6 +8,7 @@
 
 #include "core/broad_phase/examined_times.h"
 #include "core/scene/scene.h"
+#include "core/scene/tolerances.h"
 #include "core/surface/surface_shift.h"
 #include "core/survey/box_queue.h"
 
@@ -35,7 +36,8 @@
  * what follows it follows time, so that one query covers its whole range, by bounds that are better
  * than those of the lemma; the shift is that of the others. A contact is one at all times then.
  *
- * survey.c steps, survey_box.c decides one box, survey_pairs.c finds which bodies which parameters
+ * survey.c steps, survey_box.c decides one box, survey_measure.c bounds how its
+ * parameters shift bodies, survey_pairs.c finds which bodies which parameters
  * move, survey_answer.c reads. */
 
 #define SURVEY_ALL_BODIES SIZE_MAX

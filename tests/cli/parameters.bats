@@ -91,7 +91,7 @@ END
     fails 2 "--parameter must be NAME=LO,HI, such as angle=0,1.5, not 'a=1'" \
         "$IMPINGE" solve arms.json --parameter a=1
     fails 4 '/parameters/b: got the range [1, 0]' "$IMPINGE" solve arms.json --parameter b=1,0
-    fails 4 'got "x", which is no parameter' "$IMPINGE" pair 'sphere ! rotate axis=0,0,1 rate=1 clock=x' sphere
+    fails 4 'got "x", which is not a parameter' "$IMPINGE" pair 'sphere ! rotate axis=0,0,1 rate=1 clock=x' sphere
     for option in --each '--refine 1e-2,1e-3' '--proof p' --explain; do
         # shellcheck disable=SC2086 # an option and its value
         fails 2 'does not go with the parameters that the scene has' "$IMPINGE" solve arms.json $option

@@ -443,7 +443,7 @@ typedef struct wrong_scene {
     "'clock':" CLOCK "}]}]}"
 
 static const wrong_scene wrong[] = {
-    {"{" BALL("'a'"), "/bodies/0/maps/0/clock: got \"a\", which is no parameter"},
+    {"{" BALL("'a'"), "/bodies/0/maps/0/clock: got \"a\", which is not a parameter"},
     {"{'parameters':{'angle':[0,1]}," BALL("'angel'"), "did you mean 'angle'"},
     {"{'parameters':{'a':[0,1]}," BALL("3"), "must be the name of one of the scene's"},
     {"{'parameters':{'a':[1,0]}," BALL("'a'"), "/parameters/a: got the range [1, 0]"},

@@ -74,6 +74,9 @@ bool clearance_is_ended(imp_reason reason);
 /* Whether it ended before the answer was known. */
 bool clearance_is_undecided(const imp_clearance *answer);
 
+/* The exit status that tells the answer: a requirement that is violated is a contact. */
+exit_status clearance_status(const imp_clearance *answer);
+
 /* Orders answers by their lower bound, the least first; equal ones in the order of the scene. */
 void clearance_sort(imp_clearance *answers, size_t count);
 

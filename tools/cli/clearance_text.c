@@ -46,6 +46,12 @@ bool clearance_is_undecided(const imp_clearance *r)
            (r->verdict == IMP_REQUIREMENT_NONE && clearance_is_ended(r->reason));
 }
 
+exit_status clearance_status(const imp_clearance *r)
+{
+    if (r->verdict == IMP_REQUIREMENT_VIOLATED) return EXIT_CONTACT;
+    return clearance_is_undecided(r) ? EXIT_UNDECIDED : EXIT_ANSWERED;
+}
+
 static bool is_decided_only(const imp_clearance *r) { return r->reason == IMP_REASON_DECIDED; }
 
 static bool is_first_violation_known(const imp_clearance *r) { return !isnan(r->t_violated); }

@@ -251,19 +251,11 @@ static exit_status tell_contact(const survey_run *r)
     return status != EXIT_ANSWERED ? status : query_status(&result, r->args);
 }
 
-static exit_status status_of_clearance(const imp_clearance *c)
-{
-    if (c->verdict == IMP_REQUIREMENT_VIOLATED) return EXIT_CONTACT;
-    if (c->verdict == IMP_REQUIREMENT_UNDECIDED) return EXIT_UNDECIDED;
-    return c->verdict == IMP_REQUIREMENT_HOLDS || c->reason == IMP_REASON_NONE ? EXIT_ANSWERED
-                                                                               : EXIT_UNDECIDED;
-}
-
 static exit_status tell_clearance(const survey_run *r)
 {
     imp_clearance answer = {.struct_size = (uint32_t)sizeof answer};
     imp_survey_get_clearance(r->survey, &answer, NULL);
-    const exit_status verdict = status_of_clearance(&answer);
+    const exit_status verdict = clearance_status(&answer);
     const bool known = answer.has_witness, undecided = verdict == EXIT_UNDECIDED;
     exit_status status;
     if (arguments_option(r->args, "json") != NULL) {

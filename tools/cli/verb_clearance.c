@@ -212,12 +212,6 @@ static json_t *whole_json(const measuring *m, const imp_clearance *all)
     return NULL;
 }
 
-static exit_status status_of(const imp_clearance *all)
-{
-    if (all->verdict == IMP_REQUIREMENT_VIOLATED) return EXIT_CONTACT;
-    return clearance_is_undecided(all) ? EXIT_UNDECIDED : EXIT_ANSWERED;
-}
-
 static exit_status print(const measuring *m, const imp_clearance *all)
 {
     const char *speaker = m->args->verb->name;
@@ -241,7 +235,7 @@ static exit_status conclude(const measuring *m, const clearance_table *told)
     imp_clearance all = told->count > 0 ? clearance_summary(told) : nothing(m);
     all.stats = m->stats;
     const exit_status status = print(m, &all);
-    return status != EXIT_ANSWERED ? status : status_of(&all);
+    return status != EXIT_ANSWERED ? status : clearance_status(&all);
 }
 
 static exit_status measure_each(measuring *m)
