@@ -10,7 +10,7 @@
 
 static bool comes_before(const survey_box *x, const survey_box *y)
 {
-    return x->key < y->key || (x->key == y->key && x->number < y->number);
+    return x->key < y->key || (x->key == y->key && x->number > y->number);
 }
 
 bool box_queue_push(box_queue *queue, survey_box *box)

@@ -7,7 +7,9 @@
 #include <stddef.h>
 #include <stdint.h>
 
-/* Boxes of values that wait, the one of least key first; of equal keys, the one that came first. */
+/* Boxes of values that wait, the one of least key first; of equal keys, the one that came last:
+ * where bodies touch for a whole range of values at one time, all of its boxes keep that key, and
+ * the search is to reach a contact in one of them before it halves the others. */
 
 typedef struct survey_box {
     double key;      /* proved so far: a time before which nothing is near, or a distance */

@@ -81,7 +81,8 @@ static bool report(void *context, const imp_progress *of_query)
     return s->options.progress(s->options.progress_context, &all);
 }
 
-static imp_options options_of_query(imp_survey *s, double t_start, double t_end)
+/* `pairs` is a limit of the query's own; 0: none. */
+static imp_options options_of_query(imp_survey *s, double t_start, double t_end, uint64_t pairs)
 {
     imp_options options = s->options;
     options.t_start = t_start;
@@ -91,6 +92,8 @@ static imp_options options_of_query(imp_survey *s, double t_start, double t_end)
     if (options.max_pairs > 0) /* 0 would be no limit */
         options.max_pairs =
             s->stats.pairs < options.max_pairs ? options.max_pairs - s->stats.pairs : 1;
+    if (pairs > 0 && !(options.max_pairs > 0 && options.max_pairs <= pairs))
+        options.max_pairs = pairs;
     if (options.max_seconds > 0) {
         options.max_seconds -= survey_seconds(s);
         if (!(options.max_seconds > 0)) options.max_seconds = 0x1p-1000;
@@ -139,9 +142,10 @@ static bool must_end(imp_survey *s, imp_reason reason)
 }
 
 static imp_code run_contact(imp_survey *s, imp_scene *scene, query_times times,
-                            const double gamma[2], imp_result *result, imp_error *error)
+                            const double gamma[2], uint64_t pairs, imp_result *result,
+                            imp_error *error)
 {
-    imp_options options = options_of_query(s, times.start, times.end);
+    imp_options options = options_of_query(s, times.start, times.end, pairs);
     options.gamma = gamma[0];
     options.gamma_clear = gamma[1];
     *result = (imp_result){.struct_size = (uint32_t)sizeof *result};
@@ -157,7 +161,7 @@ static imp_code run_contact(imp_survey *s, imp_scene *scene, query_times times,
 static imp_code run_distance(imp_survey *s, imp_scene *scene, query_times times, double within,
                              double tolerance, imp_clearance *answer, imp_error *error)
 {
-    const imp_options options = options_of_query(s, times.start, times.end);
+    const imp_options options = options_of_query(s, times.start, times.end, 0);
     imp_clearance_options asked = imp_clearance_options_default();
     asked.within = within;
     asked.tolerance = tolerance;
@@ -302,29 +306,58 @@ static void note_contact(imp_survey *s, const survey_box *box, const imp_result 
     if (s->how.any) s->reason = IMP_REASON_NONE;
 }
 
+/* Asks without room for the shift: a contact bounds the earliest from above. Where the middle lies
+ * on the edge of the values that touch, gaps of about gamma last along whole edges, and such a
+ * search would take a thousand times the pairs of the one with room, which took `pairs`; beside the
+ * contact there are others that are easier to find, and so it is given up. */
+enum { OWN_PAIRS_LEAST = 1024, OWN_PAIRS_TIMES = 8 };
+
+static imp_code ask_own(imp_survey *s, const survey_box *box, imp_scene *scene, uint64_t pairs,
+                        box_rest *rest, imp_error *error)
+{
+    const double own[2] = {s->gamma, s->gamma_clear};
+    const uint64_t limit = OWN_PAIRS_LEAST + OWN_PAIRS_TIMES * pairs;
+    imp_result found;
+    const imp_code code = run_contact(s, scene, times_of(s, box), own, limit, &found, error);
+    if (code != IMP_SUCCESS) return code;
+    if (found.verdict == IMP_VERDICT_CONTACT) note_contact(s, box, &found);
+    if (found.verdict != IMP_VERDICT_UNDECIDED) return IMP_SUCCESS;
+    if (found.reason == IMP_REASON_PAIRS && found.stats.pairs >= limit) return IMP_SUCCESS;
+    if (must_end(s, found.reason)) *rest = BOX_WAITING;
+    return IMP_SUCCESS;
+}
+
+/* Tells the sink about the times after a contact that is known: nobody asks about them. */
+static void tell_later(const imp_survey *s, const survey_box *box)
+{
+    if (is_swept(&s->pairs[box->pair]) || !(box->key < s->options.t_end)) return;
+    survey_tell(s, box, box->key, s->options.t_end, IMP_VERDICT_UNDECIDED, 0);
+}
+
 /* Asks the query with room for the shift, then, where a contact is too coarse to be one of the
- * scene, the query without: its contact bounds the earliest from above. */
+ * scene, the query without. */
 static imp_code ask_queries(imp_survey *s, survey_box *box, imp_scene *scene, double total,
                             box_rest *rest, imp_error *error)
 {
-    const double between = s->gamma - s->gamma_clear, own[2] = {s->gamma, s->gamma_clear};
+    const double between = s->gamma - s->gamma_clear;
     const bool is_fine = total <= 0.5 * between;
     const double clear = total > 0 ? sum_upper(s->gamma_clear, total) : s->gamma_clear;
     const double coarse[2] = {is_fine ? s->gamma : clear + 0.25 * (total + between), clear};
     imp_result found;
-    imp_code code = run_contact(s, scene, times_of(s, box), coarse, &found, error);
+    imp_code code = run_contact(s, scene, times_of(s, box), coarse, 0, &found, error);
     if (code != IMP_SUCCESS) return code;
     prove_until(s, box, found.t_lower, found.verdict == IMP_VERDICT_CLEAR);
-    if (found.verdict == IMP_VERDICT_CLEAR) return *rest = BOX_DONE, IMP_SUCCESS;
+    if (found.verdict == IMP_VERDICT_CLEAR) {
+        tell_later(s, box);
+        return *rest = BOX_DONE, IMP_SUCCESS;
+    }
     if (found.verdict == IMP_VERDICT_UNDECIDED) {
         const bool is_stuck = is_fine && found.reason == IMP_REASON_RESOLUTION;
         if (is_stuck) s->reason = IMP_REASON_RESOLUTION;
         if (is_stuck || must_end(s, found.reason)) return *rest = BOX_WAITING, IMP_SUCCESS;
     }
-    if (!is_fine) code = run_contact(s, scene, times_of(s, box), own, &found, error);
-    if (code != IMP_SUCCESS) return code;
+    if (!is_fine) return ask_own(s, box, scene, found.stats.pairs, rest, error);
     if (found.verdict == IMP_VERDICT_CONTACT) note_contact(s, box, &found);
-    if (found.verdict == IMP_VERDICT_UNDECIDED && must_end(s, found.reason)) *rest = BOX_WAITING;
     return IMP_SUCCESS;
 }
 
@@ -337,6 +370,7 @@ static imp_code ask_contact(imp_survey *s, survey_box *box, box_rest *rest, imp_
     if (code != IMP_SUCCESS) return code;
     if (view.apart > s->gamma_clear) {
         prove_until(s, box, times_of(s, box).end, true);
+        tell_later(s, box);
         return *rest = BOX_DONE, IMP_SUCCESS;
     }
     if (view.total < INFINITY) {

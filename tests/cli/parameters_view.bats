@@ -30,6 +30,18 @@ setup() {
     json '.verdict == "violated" and .parameters.dx > 1 and .bodies == null'
 }
 
+@test "a door that touches for a range of values at once names one of them" {
+    # at the start, at dx = 3 and every dy from 0 to 1
+    run -0 "$IMPINGE" solve "$data/door.json" --parameter dx=-1,3 --max-pairs 300000 \
+        --boxes boxes.jsonl --json
+    json '.verdict == "contact" and .t == 0 and .t_lower == 0 and .gap <= 1e-6'
+    json '.parameters.dx > 2.999998 and .parameters.dy >= 0'
+    # all values and times are told of, those after the contact as well
+    jq -es 'map(select(.bodies == ["door", "cupboard"]) | (.time[1] - .time[0]) *
+        (.parameters.dx | .[1] - .[0]) * (.parameters.dy | .[1] - .[0])) | add |
+        . > 7.999 and . < 8.001' boxes.jsonl
+}
+
 @test "what a limit leaves tells the share that is proved, and the worst box" {
     run -3 "$IMPINGE" clearance "$data/spindle.json" --tolerance 1e-9 --max-pairs 500 --json
     json '.proved >= 0 and .proved < 1 and (.worst.parameters.b | length == 2)'
