@@ -103,9 +103,11 @@ core_scene = \
     core/scene/posed_scene.c core/scene/posed_scene.h \
     core/scene/scene.c core/scene/scene.h \
     core/scene/scene_formula.c \
+    core/scene/scene_groups.c core/scene/scene_internal.h \
     core/scene/scene_parameters.c core/scene/scene_parameters.h \
+    core/scene/scene_pieces.c \
     core/scene/scene_remarks.c core/scene/scene_remarks.h \
-    core/scene/scene_trees.h \
+    core/scene/scene_trees.c core/scene/scene_trees.h \
     core/scene/tolerances.c core/scene/tolerances.h
 
 core_solid = \
@@ -171,9 +173,13 @@ core_proof = \
 core_solver = \
     core/solver/clearance.c core/solver/clearance.h \
     core/solver/contradiction.c core/solver/contradiction.h \
+    core/solver/clearance_distance.c \
     core/solver/clearance_divide.c \
     core/solver/clearance_inside.c \
     core/solver/clearance_internal.h \
+    core/solver/clearance_proof.c \
+    core/solver/clearance_task.c \
+    core/solver/clearance_violation.c \
     core/solver/expand_pair.c core/solver/expand_pair.h \
     core/solver/explanation.c core/solver/explanation.h \
     core/solver/impact.c core/solver/impact.h \
@@ -186,10 +192,14 @@ core_solver = \
     core/solver/query.c \
     core/solver/query_answer.c \
     core/solver/query_clearance.c \
+    core/solver/query_collect.c \
+    core/solver/query_contact.c \
     core/solver/query_divide.c \
     core/solver/query_explain.c \
     core/solver/query_internal.h \
+    core/solver/query_limits.c \
     core/solver/query_proof.c \
+    core/solver/query_refine.c \
     core/solver/subdivision.c core/solver/subdivision.h \
     core/solver/time_of_impact.c core/solver/time_of_impact.h \
     core/solver/upper_time.c core/solver/upper_time.h \

@@ -12,8 +12,10 @@
 #include "core/solver/time_of_impact.h"
 #include "core/solver/world.h"
 
-/* Declarations that the files of the query share: query.c runs it, query_divide.c divides it,
- * query_answer.c and query_clearance.c return its results. */
+/* Declarations that the files of the query share: query.c makes and runs it, query_limits.c ends it
+ * early, query_collect.c is its broad phase, query_contact.c its search for a contact,
+ * query_refine.c continues it, query_divide.c divides it, query_answer.c and query_clearance.c
+ * return its results. */
 
 struct imp_query {
     imp_scene *scene;
@@ -73,6 +75,25 @@ void query_forget_insides(imp_query *query);
 
 /* Returns the reason that a clear query answers. */
 imp_reason query_reason_of_clear(const imp_query *query);
+
+/* Counts the memory of this moment, of which `of_candidates` bytes are the broad phase's. */
+void query_note_bytes(imp_query *query, uint64_t of_candidates);
+
+/* Reads the clock, and reports progress if that is due; the program may cancel then.
+ * `seconds_before` were spent before this step, which began at `start` of the clock. */
+void query_read_clock(imp_query *query, double seconds_before, double start);
+
+/* Returns the limit that is reached, or IMP_REASON_NONE. A cancellation ends one step: it is
+ * cleared here, the only place that acts on it, so that none is lost. */
+imp_reason query_exhausted_limit(imp_query *query, double seconds);
+
+/* Returns the gamma_clear of the search: the requested one, plus the slip of pairs that are
+ * searched at one moment, and room for a verifier. */
+double query_searched_gamma_clear(const imp_query *query, double gamma_clear);
+
+/* Does one unit of work of the search for the earliest contact: tests the roots of the next
+ * candidate pair or, after all of them, expands a pair of the heap. */
+imp_code query_search_contact(imp_query *query, imp_error *error);
 
 /* Fills the list of candidates, unless a limit comes first, which ends the query. `start` is when
  * the step began. */

@@ -1,0 +1,108 @@
+/* SPDX-FileCopyrightText: The Impinge authors
+ * SPDX-License-Identifier: Apache-2.0 */
+#include <config.h>
+
+#include "core/scene/scene_trees.h"
+
+#include <stdlib.h>
+
+#include "core/base/status.h"
+#include "core/scene/scene_internal.h"
+
+static void inner_free(inner *i)
+{
+    surface_free(i->surface);
+    free(i);
+}
+
+void scene_free_trees(member *m)
+{
+    for (tree *t = m->trees, *next; t != NULL; t = next) {
+        next = tree_next(t);
+        tree_free(t);
+    }
+    for (inner *i = m->inners, *next; i != NULL; i = next) {
+        next = i->next;
+        inner_free(i);
+    }
+}
+
+/* Returns the first tree of the list that is of this plan; NULL: there is none yet. */
+static tree *find_tree(tree *t, const tree_plan *plan)
+{
+    while (t != NULL && !tree_is_of(t, plan)) t = tree_next(t);
+    return t;
+}
+
+/* Adds the tree to the list, unless another thread has added one: then `made` is freed and that one
+ * returned. */
+static tree *keep_tree(member *m, const tree_plan *plan, tree *made)
+{
+    tree *first = atomic_load_explicit(&m->trees, memory_order_acquire);
+    do {
+        tree *found = find_tree(first, plan);
+        if (found != NULL) {
+            tree_free(made);
+            return found;
+        }
+        tree_set_next(made, first);
+    } while (!atomic_compare_exchange_weak_explicit(&m->trees, &first, made, memory_order_release,
+                                                    memory_order_acquire));
+    return made;
+}
+
+static const surface *find_inner(const inner *i, size_t left_out)
+{
+    while (i != NULL && i->left_out != left_out) i = i->next;
+    return i != NULL ? i->surface : NULL;
+}
+
+/* Returns the surface without its last maps, made now if it is asked for first. NULL: no memory. */
+static const surface *surface_in_frame(member *m, size_t left_out, tree_growth *growth)
+{
+    if (left_out == 0) return m->surface;
+    inner *first = atomic_load_explicit(&m->inners, memory_order_acquire);
+    const surface *found = find_inner(first, left_out);
+    if (found != NULL) return found;
+    inner *made = malloc(sizeof *made);
+    if (made == NULL) return NULL;
+    *made = (inner){NULL, surface_new_inner(m->surface, surface_map_count(m->surface) - left_out),
+                    left_out};
+    if (made->surface == NULL) {
+        free(made);
+        return NULL;
+    }
+    do {
+        found = find_inner(first, left_out);
+        if (found != NULL) {
+            inner_free(made);
+            return found;
+        }
+        made->next = first;
+    } while (!atomic_compare_exchange_weak_explicit(&m->inners, &first, made, memory_order_release,
+                                                    memory_order_acquire));
+    growth->bytes += sizeof *made + surface_bytes(made->surface);
+    return made->surface;
+}
+
+/* Threads may make trees of one surface at once; one of each plan is kept. */
+imp_code scene_tree(imp_scene *scene, size_t body, size_t index, const tree_plan *plan,
+                    bool with_root, tree **found, tree_growth *growth, imp_error *error)
+{
+    member *m = &scene->bodies[body].members[index];
+    tree *made;
+    tree_growth own = {.watch = growth->watch};
+    *found = find_tree(atomic_load_explicit(&m->trees, memory_order_acquire), plan);
+    if (*found != NULL) return IMP_SUCCESS;
+    const surface *s = surface_in_frame(m, plan->left_out, growth);
+    if (s == NULL) return error_set_memory(error);
+    tree_plan stored = *plan;
+    stored.store = scene->store;
+    const imp_code code = with_root ? tree_new(s, &stored, &made, &own, error)
+                                    : tree_new_without_root(s, &stored, &made, &own, error);
+    growth->ended = own.ended;
+    if (code != IMP_SUCCESS) return code;
+    *found = keep_tree(m, plan, made);
+    if (*found == made) growth->nodes += own.nodes, growth->bytes += own.bytes;
+    return IMP_SUCCESS;
+}

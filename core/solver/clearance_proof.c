@@ -1,0 +1,42 @@
+/* SPDX-FileCopyrightText: The Impinge authors
+ * SPDX-License-Identifier: Apache-2.0 */
+#include <config.h>
+
+#include "core/solver/clearance_internal.h"
+
+#include "core/base/status.h"
+
+/* What the certificate of a clearance states. */
+
+imp_code clearance_keep_proof(clearance_search *c, proof_logs *logs, imp_error *error)
+{
+    if (c->asked.each || c->asked.slices != 1)
+        return error_set(error, IMP_ERROR_USAGE,
+                         "proof: got a clearance with %s, must be one with a single answer",
+                         c->asked.each ? "`each`" : "slices");
+    c->proof = logs;
+    return IMP_SUCCESS;
+}
+
+/* The verifier is given room by what it is asked to prove: a part of the bracket, unless a
+ * requirement is kept, for which the search had room. */
+enum { PART_OF_BRACKET = 16 };
+
+clearance_proved clearance_what_is_proved(const clearance_search *c)
+{
+    const imp_clearance *answer = &c->answers[0];
+    const bool fails = answer->t_violated >= answer->t_start;
+    clearance_proved proved = {c->by_violation, 0, answer->t_start,
+                               fails ? answer->t_violated : answer->t_end};
+    if (c->by_violation) {
+        proved.apart = clearance_relaxed(c);
+        return proved;
+    }
+    const double room =
+        answer->has_witness ? answer->upper - answer->lower : 0.0625 * answer->lower;
+    proved.apart = answer->lower - room / PART_OF_BRACKET;
+    if (answer->verdict == IMP_REQUIREMENT_HOLDS && proved.apart < clearance_relaxed(c))
+        proved.apart = clearance_relaxed(c);
+    if (!(proved.apart > 0)) proved.apart = 0;
+    return proved;
+}

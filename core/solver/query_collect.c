@@ -1,0 +1,73 @@
+/* SPDX-FileCopyrightText: The Impinge authors
+ * SPDX-License-Identifier: Apache-2.0 */
+#include <config.h>
+
+#include "core/base/rounding.h"
+#include "core/common/clock.h"
+#include "core/solver/query_internal.h"
+
+/* The broad phase of a query, which its limits may end. */
+
+typedef struct collecting {
+    imp_query *query;
+    double seconds_before, start; /* of this step */
+    imp_reason reason;
+} collecting;
+
+/* Returns the most candidate pairs with which the search can end: each counts as a pair of
+ * max_pairs. In a divided query that limit applies to each part. 0: no limit. */
+static uint64_t most_candidates(const imp_query *query)
+{
+    return query->divided > 0 ? 0 : query->options.max_pairs;
+}
+
+static bool limit_is_reached(void *context, uint64_t bytes, uint64_t pairs)
+{
+    collecting *c = context;
+    const uint64_t most = most_candidates(c->query);
+    query_read_clock(c->query, c->seconds_before, c->start);
+    query_note_bytes(c->query, bytes);
+    c->reason = query_exhausted_limit(c->query, c->query->stats.seconds);
+    if (c->reason == IMP_REASON_NONE && most > 0 && pairs > most) c->reason = IMP_REASON_PAIRS;
+    return c->reason != IMP_REASON_NONE;
+}
+
+/* Other threads call this while the query's thread waits: only `cancelled` may change meanwhile. */
+static bool limit_is_near(void *context, uint64_t bytes, uint64_t pairs)
+{
+    const collecting *c = context;
+    const imp_query *query = c->query;
+    const imp_options *options = &query->options;
+    const uint64_t most = most_candidates(query);
+    return atomic_load_explicit(&query->cancelled, memory_order_relaxed) ||
+           (most > 0 && query->candidates.pair_count + pairs > most) ||
+           (options->max_bytes > 0 && query->peak_bytes + bytes > options->max_bytes) ||
+           (options->max_seconds > 0 &&
+            c->seconds_before + (clock_seconds() - c->start) >= options->max_seconds);
+}
+
+double query_searched_gamma_clear(const imp_query *query, double gamma_clear)
+{
+    const double slip = query->candidates.slip;
+    gamma_clear += query_proof_room(query);
+    return slip > 0 ? sum_upper(gamma_clear, slip) : gamma_clear;
+}
+
+/* If a limit ends it, the next step starts it again. For a minimum distance without `within`, all
+ * surfaces are candidates, however far apart. */
+imp_code query_collect(imp_query *query, double start, imp_error *error)
+{
+    const double near =
+        query->clearance == NULL ? query->impact.gamma_clear : clearance_near(query->clearance);
+    collecting c = {query, query->stats.seconds, start, IMP_REASON_NONE};
+    const candidate_limit limit = {limit_is_reached, limit_is_near, &c};
+    const bool may_rest = query->clearance == NULL || clearance_is_of_all_times(query->clearance);
+    const imp_code code = candidates_find(&query->candidates, query->scene, &query->options, near,
+                                          may_rest, &limit, &query->stats, error);
+    query->impact.gamma_clear = query_searched_gamma_clear(query, query->gamma_clear);
+    query->impact.candidate_pairs = query->candidates.pairs;
+    query->impact.candidate_pair_count = query->candidates.pair_count;
+    if (code == IMP_SUCCESS && !query->candidates.complete)
+        query_finish(query, IMP_VERDICT_UNDECIDED, c.reason);
+    return code;
+}

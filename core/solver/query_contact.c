@@ -1,0 +1,96 @@
+/* SPDX-FileCopyrightText: The Impinge authors
+ * SPDX-License-Identifier: Apache-2.0 */
+#include <config.h>
+
+#include "core/solver/pair_test.h"
+#include "core/solver/query_internal.h"
+
+/* The search for the earliest contact, and what ends it. */
+
+imp_reason query_reason_of_clear(const imp_query *query)
+{
+    if (!query->examined.any_pair) return IMP_REASON_NO_PAIRS;
+    return query->examined.lo <= query->examined.hi ? IMP_REASON_NONE : IMP_REASON_NO_TIME;
+}
+
+/* Whether one surface of the contact is at rest during all of the query's times. Rates are computed
+ * only if no point of it was seen to move. */
+static bool is_at_rest(const imp_query *query, int side)
+{
+    const candidate *c = query->candidates.pairs[query->impact.found_candidate].side[side];
+    const surface *s = scene_surface(query->scene, c->body, c->surface);
+    const imp_region *times = &tree_root(c->tree)->region;
+    double lo[3], hi[3];
+    imp_rate_matrix rates;
+    if (c->moves && c->left_out == 0) return false;
+    if (surface_piece_count(s) > 0) s = surface_piece(s, query->impact.found.piece[side]);
+    surface_domain(s, lo, hi);
+    lo[2] = times->lo[2], hi[2] = times->hi[2];
+    const imp_region region = region_make(lo, hi);
+    if (surface_rate(s, &region, &rates) != IMP_STATUS_OK) return false;
+    bool rests = true;
+    for (int i = 0; i < 3; ++i) rests = rests && rates.m[i][PARAMETER_T] == 0;
+    return rests;
+}
+
+static imp_code conclude_contact(imp_query *query, imp_error *error)
+{
+    const impact *im = &query->impact;
+    const candidate_pair *both = &query->candidates.pairs[im->found_candidate];
+    query_finish(query, IMP_VERDICT_CONTACT, IMP_REASON_NONE);
+    query->kind = IMP_CONTACT_TOUCH;
+    query->at_rest = is_at_rest(query, 0) && is_at_rest(query, 1);
+    return world_witness_of(query->scene, both, &im->found, im->t_lower, im->gamma, &query->contact,
+                            error);
+}
+
+/* Ends a search that has found nothing at the start, where it is not known whether one of two
+ * bodies was inside the other then. */
+static void conclude_unknown(imp_query *query)
+{
+    query->impact.found_candidate = (uint32_t)query->unknown_candidate;
+    query_finish(query, IMP_VERDICT_UNDECIDED, IMP_REASON_RESOLUTION);
+}
+
+static imp_code conclude(imp_query *query, impact_state state, imp_error *error)
+{
+    const bool at_start =
+        state == IMPACT_CONTACT && query->impact.t_lower <= query->options.t_start;
+    if (query->inside_unknown && !at_start && (state == IMPACT_CLEAR || state == IMPACT_CONTACT)) {
+        conclude_unknown(query);
+        return IMP_SUCCESS;
+    }
+    switch (state) {
+    case IMPACT_RUNNING:
+        break;
+    case IMPACT_CONTACT:
+        return conclude_contact(query, error);
+    case IMPACT_CLEAR:
+        query_finish(query, IMP_VERDICT_CLEAR, query_reason_of_clear(query));
+        break;
+    case IMPACT_RESOLUTION:
+        query_finish(query, IMP_VERDICT_UNDECIDED, IMP_REASON_RESOLUTION);
+        break;
+    case IMPACT_NO_MEMORY:
+        query_finish(query, IMP_VERDICT_UNDECIDED, IMP_REASON_MEMORY);
+        break;
+    }
+    return IMP_SUCCESS;
+}
+
+imp_code query_search_contact(imp_query *query, imp_error *error)
+{
+    impact_state state = IMPACT_RUNNING;
+    imp_code code = IMP_SUCCESS;
+    if (query_may_be_inside(query)) return query_look_inside(query, error);
+    if (query->candidates_tested < query->candidates.pair_count) {
+        pair_test_look_ahead(&query->impact, (uint32_t)query->candidates_tested,
+                             query->candidates.pair_count, &query->options);
+        code =
+            impact_add_candidate(&query->impact, (uint32_t)query->candidates_tested, &state, error);
+        if (state == IMPACT_RUNNING) query->candidates_tested += 1;
+    } else {
+        code = impact_advance(&query->impact, &state, error);
+    }
+    return code == IMP_SUCCESS ? conclude(query, state, error) : code;
+}
