@@ -31,12 +31,12 @@ static imp_code begin(clearance_search *c, imp_error *error)
 imp_code clearance_look_inside(clearance_search *c, const clearance_group *group,
                                inside_answer *found, imp_error *error)
 {
-    const candidate_pair *pairs = c->list->pairs + group->first;
     *found = (inside_answer){.state = INSIDE_NOBODY};
     c->inside_unknown = false;
     if (!scene_has_solids(c->scene) || is_known(c)) return IMP_SUCCESS;
     imp_code code = begin(c, error);
     for (size_t k = 0; code == IMP_SUCCESS && k < group->count; ++k) {
+        const candidate_pair *pairs = c->list->pairs + group->first;
         tree_growth growth = {0};
         if (!candidate_pair_is_first(pairs, k)) continue;
         const size_t body[2] = {pairs[k].side[0]->body, pairs[k].side[1]->body};
