@@ -119,7 +119,7 @@ static void require(const certificate *c, const char *why)
     if (why == NULL) {
         ck_assert_msg(good && !assumes, "%s", fault);
     } else {
-        ck_assert_msg(!good, "accepted: %s", why);
+        ck_assert_msg(!good, "accepted: %s: %.*s", why, (int)c->size, (const char *)c->bytes);
         ck_assert_msg(strstr(fault, why) != NULL, "%s", fault);
     }
     statement_free(&s);
@@ -177,6 +177,11 @@ START_TEST(false_certificates_are_refused)
         {false, "apart 0x1p-4", "apart nan", "finite"},
         {false, "apart 0x1p-4", "apart -1", "nothing"},
         {false, "impinge certificate 1", "impinge certificate 2", "begins"},
+        {false, "body lid", "body bowl", "named 'bowl'"},
+        {false, "verdict contact", "verdict contact\nverdict clear", "begins with 'verdict'"},
+        {false, "apart 0x1p-4", "apart 0x1p-4 0.7", "too long"},
+        {false, "from 0\n", "from 0 to 1\n", "too long"},
+        {false, "point 1 0 0 0", "point 1 0 0 0 1", "too long"},
         {false, "h = 1; u", "h = 1; t in [0.5, 1]; u", "leaves open"},
         {false, "h = 1; u", "h = 1; t in [0.5, 0.5]; u", "no size"},
         {false, "u; v; 0.1", "u; v; 9 | u in [1, 1]; v in [0, 1]; u; v; 0.1", "no size"},
@@ -193,6 +198,99 @@ START_TEST(false_certificates_are_refused)
         replace(&c, changes[k].from, changes[k].to);
         require(&c, changes[k].why);
     }
+}
+END_TEST
+
+/* What has no value has none after a product with 0, a choice or a wave either. */
+START_TEST(formulas_without_a_value_are_refused)
+{
+    static const char *const terms[] = {"0/0",
+                                        "0*(1/0)",
+                                        "0*log(-1)",
+                                        "min(0, 0/0)",
+                                        "max(5, 1/0)*0",
+                                        "copysign(0, 1/0)",
+                                        "0^(1/0)",
+                                        "(0/0)^0",
+                                        "hypot(0, 0/0)",
+                                        "0*atan2(1, log(-1))",
+                                        "0*sqrt(-1)",
+                                        "0*sqrt(-0x1p-50)",
+                                        "0*sqrt(u)",
+                                        "0*(u - 2)^0.5",
+                                        "0*u^-1",
+                                        "0*u^u",
+                                        "(1/u)^0",
+                                        "0*log(v)",
+                                        "0*log(1 + u)",
+                                        "0*asin(2*u)",
+                                        "0*acos(u - 3)",
+                                        "0*tan(2*u)",
+                                        "sin(1/u)*0",
+                                        "min(0, max(0, 1/u))",
+                                        "0*atan(1/(u - 0.3))",
+                                        "0*cbrt(log(u))",
+                                        "copysign(0, log(u))",
+                                        "exp(-1/u^2)*0",
+                                        "0*(t - 0.3)^-1",
+                                        "abs(0*sqrt(0.2 - t))"};
+    static const char *const good[] = {
+        "0*sqrt(1 + u)",    "0*sqrt(1 - u^2)", "0*sqrt(0.3 - 3*u/10)", "0*asin(u)",
+        "0*acos(sin(9*v))", "0*(1 - u^2)^1.5", "0*log(2 + u)",         "0*tan(u)",
+        "u^0 - 1",          "0*(u + 2)^v",     "0*(u + 2)^-2",         "0*u/(2 + v)",
+        "0*abs(u)^(2/0.3)"};
+    char text[200];
+    for (size_t k = 0; k < sizeof terms / sizeof *terms; ++k) {
+        certificate c = bowl_made();
+        snprintf(text, sizeof text, "h - 0.05*u*v + %s", terms[k]);
+        replace(&c, "h - 0.05*u*v", text);
+        require(&c, "");
+    }
+    for (size_t k = 0; k < sizeof good / sizeof *good; ++k) {
+        certificate c = bowl_made();
+        snprintf(text, sizeof text, "h - 0.05*u*v + %s", good[k]);
+        replace(&c, "h - 0.05*u*v", text);
+        require(&c, NULL);
+    }
+}
+END_TEST
+
+START_TEST(undefined_maps_ends_and_points_are_refused)
+{
+    static const struct {
+        bool is_balls;
+        const char *from, *to, *why;
+    } changes[] = {
+        {false, "z - t", "z - t + 0*log(x)", "value"},
+        {false, "x; y; z - t", "0*log(x); y; z - t", "value"},
+        {false, "u; v; 0.1", "u + 1/u; v; 0.1", ""},
+        {false, "u in [-1, 1]; v", "u in [0/0, 1]; v", "no value"},
+        {false, "u in [-1, 1]; v", "u in [-1, 1]; t in [0*log(-1), 9]; v", "no value"},
+        {true, "; z\nsurface 0", "; z + 0*sqrt(x)\nsurface 0", "rigid"},
+    };
+    for (size_t k = 0; k < sizeof changes / sizeof *changes; ++k) {
+        certificate c = changes[k].is_balls ? balls_made() : bowl_made();
+        replace(&c, changes[k].from, changes[k].to);
+        require(&c, changes[k].why);
+    }
+}
+END_TEST
+
+/* At the one time, or along the one line, that two parts share, both count. */
+START_TEST(parts_that_meet_are_all_proved)
+{
+    static const char *const far = "u in [-1, 1]; v in [-1, 1]; t in [0.5, 1]; u; v; -9 | ";
+    char text[300];
+    snprintf(text, sizeof text, "%su in [-1, 1]; v in [-1, 1]; t in [0, 0.5]; u; v; 0.1", far);
+    certificate d = bowl_made();
+    replace(&d, "u in [-1, 1]; v in [-1, 1]; u; v; 0.1", text);
+    replace(&d, "from 0\n", "from 0.5\n");
+    replace(&d, "z - t", "z - 2*t");
+    require(&d, "apart");
+    d = bowl_made();
+    replace(&d, "x; y; z - t", "t in [0.5, 1]; x; y; z + 9 | t in [0, 0.5]; x; y; z - 2*t");
+    replace(&d, "from 0\n", "from 0.5\n");
+    require(&d, "");
 }
 END_TEST
 
@@ -252,6 +350,21 @@ START_TEST(bad_axes_cost_time_and_no_verdict)
     certificate c = bowl_made();
     c.bytes[c.size - 5] = 0x80, c.bytes[c.size - 4] = 1; /* the axis points the other way */
     require(&c, NULL);
+}
+END_TEST
+
+START_TEST(points_of_what_is_assumed_are_checked)
+{
+    static const char *const changes[][3] = {{"within 0.6 at 0.5", "within 0.6 at 0.75", "time"},
+                                             {"point 1 0 0 0", "point 9 0 0 0", "no surface"},
+                                             {"point 1 0 0 0", "point 1 3 0 0", "no piece"},
+                                             {"point 1 0 0 0", "point 0 0 0 0", "not tested"}};
+    for (size_t k = 0; k < sizeof changes / sizeof *changes; ++k) {
+        certificate c = bowl_made();
+        replace(&c, "x; y; z - t\n", "\n");
+        replace(&c, changes[k][0], changes[k][1]);
+        require(&c, changes[k][2]);
+    }
 }
 END_TEST
 
@@ -423,4 +536,6 @@ SUITE_MAIN("certificates", true_certificates_hold, false_certificates_are_refuse
            trees_that_leave_out_cells_are_refused, trees_that_make_no_sense_are_refused,
            maps_left_out_shrink_the_claim, operations_in_doubles_contain_those_of_mpfi,
            bad_axes_cost_time_and_no_verdict, what_cannot_be_said_is_assumed,
+           points_of_what_is_assumed_are_checked, formulas_without_a_value_are_refused,
+           undefined_maps_ends_and_points_are_refused, parts_that_meet_are_all_proved,
            no_change_makes_a_false_statement_hold)

@@ -30,9 +30,26 @@ static int same_as(const formula *f, const step *s)
     return -1;
 }
 
+/* Whether a step has a value for all values of the variables, as far as is seen here. Constants
+ * have one. */
+static bool is_total(const formula *f, const step *s)
+{
+    static jet_function *const partial[] = {jet_sqrt_, jet_log_, jet_tan_, jet_asin_, jet_acos_};
+    bool total = true;
+    for (int i = 0; i < s->count; ++i) total = total && f->steps[s->operand[i]].is_total;
+    for (size_t k = 0; k < sizeof partial / sizeof *partial; ++k)
+        total = total && !(s->kind == STEP_FUNCTION && s->function == partial[k]);
+    if (s->kind != STEP_DIVIDE && s->kind != STEP_POWER) return total;
+    const step *b = &f->steps[s->operand[1]];
+    const ld_interval value = b->constant;
+    if (!total || b->kind != STEP_CONSTANT) return false;
+    if (s->kind == STEP_DIVIDE) return ld_interval_excludes_0(value);
+    return value.lo >= 0 && value.lo == value.hi && floorl(value.lo) == value.lo;
+}
+
 /* Computes the steps that depend on no variable, and leaves out sums with 0 and products with 0 or
- * 1, which rotations about x, y or z are full of. place[k]: the step that has the value of step
- * k. */
+ * 1, which rotations about x, y or z are full of. What has no value is left as it is. place[k]: the
+ * step that has the value of step k. */
 static void fold(formula *f, jet *value, int *place)
 {
     for (int k = 0; k < f->count; ++k) {
@@ -44,11 +61,13 @@ static void fold(formula *f, jet *value, int *place)
         }
         const int same = is_fixed || s->count != 2 ? -1 : same_as(f, s);
         place[k] = same >= 0 ? same : k;
+        s->is_total = is_total(f, s);
         if (is_fixed) value[k] = computed(value, s, 0);
-        if (s->kind == STEP_MULTIPLY &&
+        if (s->kind == STEP_MULTIPLY && s->is_total &&
             (is_number(f, s->operand[0], 0) || is_number(f, s->operand[1], 0)))
             value[k] = jet_constant(0, ld_interval_of(0)), is_fixed = true;
-        if (is_fixed) *s = (step){.kind = STEP_CONSTANT, .constant = value[k].v};
+        if (is_fixed && !value[k].is_undefined)
+            *s = (step){.kind = STEP_CONSTANT, .constant = value[k].v, .is_total = true};
     }
     for (int i = 0; i < 3; ++i) f->out[i] = place[f->out[i]];
 }
@@ -268,7 +287,7 @@ bool formula_constant(formula *f, int which, ld_interval *value)
             has_variable[k] = has_variable[k] || has_variable[s->operand[i]];
         if (!has_variable[k]) all[k] = computed(all, s, 0);
     }
-    is_known = is_known && !has_variable[which];
+    is_known = is_known && !has_variable[which] && !all[which].is_undefined;
     if (is_known) *value = all[which].v;
     f->value = NULL;
     free(all);

@@ -26,16 +26,25 @@ static int next_of(const jet *x, int j)
 
 static int first_of(const jet *x) { return next_of(x, -1); }
 
-static int bends_of(const jet *x, const jet *y)
+/* A jet of two others, whose derivatives are 0 so far. */
+static jet joined(const jet *x, const jet *y, ld_interval value)
 {
-    return x->bends < y->bends ? x->bends : y->bends;
+    return (jet){.n = x->n,
+                 .bends = x->bends < y->bends ? x->bends : y->bends,
+                 .on = x->on | y->on,
+                 .is_undefined = x->is_undefined || y->is_undefined,
+                 .v = value};
 }
 
 /* --- Sums and products ------------------------------------------------------------------------ */
 
 jet jet_neg(const jet *x)
 {
-    jet r = {.n = x->n, .bends = x->bends, .on = x->on, .v = ld_interval_neg(x->v)};
+    jet r = {.n = x->n,
+             .bends = x->bends,
+             .on = x->on,
+             .is_undefined = x->is_undefined,
+             .v = ld_interval_neg(x->v)};
     for (int j = first_of(&r); j < r.n; j = next_of(&r, j)) {
         r.d[j] = ld_interval_neg(x->d[j]);
         for (int k = j; k < r.bends; k = next_of(&r, k)) r.h[j][k] = ld_interval_neg(x->h[j][k]);
@@ -45,8 +54,7 @@ jet jet_neg(const jet *x)
 
 jet jet_add(const jet *x, const jet *y)
 {
-    jet r = {
-        .n = x->n, .bends = bends_of(x, y), .on = x->on | y->on, .v = ld_interval_add(x->v, y->v)};
+    jet r = joined(x, y, ld_interval_add(x->v, y->v));
     for (int j = first_of(&r); j < r.n; j = next_of(&r, j)) {
         r.d[j] = ld_interval_add(x->d[j], y->d[j]);
         for (int k = j; k < r.bends; k = next_of(&r, k))
@@ -63,7 +71,7 @@ jet jet_sub(const jet *x, const jet *y)
 
 jet jet_scale(const jet *x, ld_interval k)
 {
-    jet r = {.n = x->n, .bends = x->bends, .on = x->on, .v = ld_interval_mul(x->v, k)};
+    jet r = joined(x, x, ld_interval_mul(x->v, k));
     for (int j = first_of(&r); j < r.n; j = next_of(&r, j)) {
         r.d[j] = ld_interval_mul(x->d[j], k);
         for (int l = j; l < r.bends; l = next_of(&r, l)) r.h[j][l] = ld_interval_mul(x->h[j][l], k);
@@ -83,8 +91,7 @@ static ld_interval product_curvature(const jet *x, const jet *y, int j, int k)
 
 jet jet_mul(const jet *x, const jet *y)
 {
-    jet r = {
-        .n = x->n, .bends = bends_of(x, y), .on = x->on | y->on, .v = ld_interval_mul(x->v, y->v)};
+    jet r = joined(x, y, ld_interval_mul(x->v, y->v));
     for (int j = first_of(&r); j < r.n; j = next_of(&r, j)) {
         r.d[j] = ld_interval_add(ld_interval_mul(x->d[j], y->v), ld_interval_mul(x->v, y->d[j]));
         for (int k = j; k < r.bends; k = next_of(&r, k)) r.h[j][k] = product_curvature(x, y, j, k);
@@ -97,7 +104,7 @@ jet jet_mul(const jet *x, const jet *y)
 /* g(x)'' = g'' x' x' + g' x''. What x does not depend on stays 0, however steep g is. */
 static jet composed(const jet *x, const ld_interval g[3])
 {
-    jet r = {.n = x->n, .bends = x->bends, .on = x->on, .v = g[0]};
+    jet r = joined(x, x, g[0]);
     for (int j = first_of(&r); j < r.n; j = next_of(&r, j)) {
         r.d[j] = ld_interval_mul(g[1], x->d[j]);
         for (int k = j; k < r.bends; k = next_of(&r, k)) {
@@ -113,17 +120,20 @@ static jet composed(const jet *x, const ld_interval g[3])
 jet jet_apply(jet_function *g, const jet *x)
 {
     ld_interval values[3];
-    g(x->v, values);
-    return composed(x, values);
+    const bool has_value = g(x->v, values);
+    jet r = composed(x, values);
+    r.is_undefined |= !has_value;
+    return r;
 }
 
 /* --- Functions of several --------------------------------------------------------------------- */
 
-static void inverse_(ld_interval x, ld_interval g[3])
+static bool inverse_(ld_interval x, ld_interval g[3])
 {
     g[0] = ld_interval_inverse(x);
     g[1] = ld_interval_neg(ld_interval_sqr(g[0]));
     g[2] = ld_interval_scale(ld_interval_integer_power(g[0], 3), 2);
+    return ld_interval_excludes_0(x);
 }
 
 jet jet_div(const jet *x, const jet *y)
@@ -134,10 +144,21 @@ jet jet_div(const jet *x, const jet *y)
     return r;
 }
 
+jet jet_hull(const jet *x, const jet *y)
+{
+    jet r = joined(x, y, ld_interval_hull(x->v, y->v));
+    for (int j = first_of(&r); j < r.n; j = next_of(&r, j)) {
+        r.d[j] = ld_interval_hull(x->d[j], y->d[j]);
+        for (int k = j; k < r.bends; k = next_of(&r, k))
+            r.h[j][k] = ld_interval_hull(x->h[j][k], y->h[j][k]);
+    }
+    return r;
+}
+
 /* One of two, or between them: slopes are of either, and where they meet there is a kink. */
 static jet either(const jet *x, const jet *y, ld_interval value)
 {
-    jet r = {.n = x->n, .bends = bends_of(x, y), .on = x->on | y->on, .v = value};
+    jet r = joined(x, y, value);
     for (int j = first_of(&r); j < r.n; j = next_of(&r, j))
         r.d[j] = ld_interval_hull(x->d[j], y->d[j]);
     for (int j = first_of(&r); j < r.n; j = next_of(&r, j))
@@ -147,17 +168,25 @@ static jet either(const jet *x, const jet *y, ld_interval value)
     return r;
 }
 
+/* x, which has no value where y has none. */
+static jet alone(const jet *x, const jet *y)
+{
+    jet r = *x;
+    r.is_undefined |= y->is_undefined;
+    return r;
+}
+
 jet jet_min(const jet *x, const jet *y)
 {
-    if (x->v.hi < y->v.lo) return *x;
-    if (y->v.hi < x->v.lo) return *y;
+    if (x->v.hi < y->v.lo) return alone(x, y);
+    if (y->v.hi < x->v.lo) return alone(y, x);
     return either(x, y, ld_interval_min(x->v, y->v));
 }
 
 jet jet_max(const jet *x, const jet *y)
 {
-    if (x->v.lo > y->v.hi) return *x;
-    if (y->v.lo > x->v.hi) return *y;
+    if (x->v.lo > y->v.hi) return alone(x, y);
+    if (y->v.lo > x->v.hi) return alone(y, x);
     return either(x, y, ld_interval_max(x->v, y->v));
 }
 
@@ -179,8 +208,13 @@ static jet whole_power(const jet *x, int n)
     return composed(x, (ld_interval[3]){ld_interval_integer_power(x->v, n), slope, bend});
 }
 
+/* Lemma. x^k is 0 for what counts as 0 (jet_is_from). Beside that, its slopes and bends are within
+ * those of x >= 0, which contain 0, if k > 1; else it has a kink at 0. */
 static jet fixed_power(const jet *x, ld_interval k)
 {
+    const ld_interval all = ld_interval_entire();
+    if (x->v.lo < 0 && !(k.lo > 1))
+        return composed(x, (ld_interval[3]){ld_interval_power(x->v, k), all, all});
     const ld_interval less = ld_interval_sub(k, ld_interval_of(1));
     const ld_interval slope = ld_interval_mul(k, ld_interval_power(x->v, less));
     const ld_interval bend = ld_interval_mul(
@@ -192,12 +226,24 @@ static jet fixed_power(const jet *x, ld_interval k)
  * a power too. */
 static bool may_be_whole(ld_interval k) { return floorl(k.hi) >= k.lo; }
 
-/* x^k for fixed k, whole or not; else exp(y log x). */
-jet jet_power(const jet *x, const jet *y)
+static bool is_whole(const jet *y)
 {
     const proof_real k = y->v.lo;
-    if (is_fixed(y) && ld_interval_is(y->v, k) && floorl(k) == k && proof_size(k) < 1e9F)
-        return k == 0 ? jet_constant(x->n, ld_interval_of(1)) : whole_power(x, (int)k);
+    return is_fixed(y) && ld_interval_is(y->v, k) && floorl(k) == k && proof_size(k) < 1e9F;
+}
+
+/* Whether x^y has values: of numbers below 0 for whole y only; 0^0 is 1. */
+static bool has_power(ld_interval x, const jet *y)
+{
+    if (is_whole(y)) return y->v.lo >= 0 || ld_interval_excludes_0(x);
+    return x.lo > 0 || (y->v.lo > 0 && jet_is_from(x, 0));
+}
+
+/* x^k for fixed k, whole or not; else exp(y log x). */
+static jet power_of(const jet *x, const jet *y)
+{
+    const proof_real k = y->v.lo;
+    if (is_whole(y)) return k == 0 ? jet_constant(x->n, ld_interval_of(1)) : whole_power(x, (int)k);
     const ld_interval all = ld_interval_entire();
     if (x->v.lo < 0 && may_be_whole(y->v)) {
         const jet by_base = composed(x, (ld_interval[3]){all, all, all});
@@ -208,6 +254,13 @@ jet jet_power(const jet *x, const jet *y)
     if (is_fixed(y)) return fixed_power(x, y->v);
     const jet log = jet_apply(jet_log_, x), exponent = jet_mul(y, &log);
     return jet_apply(jet_exp_, &exponent);
+}
+
+jet jet_power(const jet *x, const jet *y)
+{
+    jet r = power_of(x, y);
+    r.is_undefined |= x->is_undefined || y->is_undefined || !has_power(x->v, y);
+    return r;
 }
 
 /* sqrt(sum x_i^2). Lemma: its slope by j is no longer than the vector of slopes of the x_i, also
@@ -235,10 +288,7 @@ jet jet_angle(const jet *y, const jet *x)
 {
     const jet y2 = jet_apply(jet_sqr_, y), x2 = jet_apply(jet_sqr_, x), r2 = jet_add(&x2, &y2);
     const jet a = jet_div(x, &r2), b = jet_div(y, &r2);
-    jet r = {.n = x->n,
-             .bends = bends_of(x, y),
-             .on = x->on | y->on,
-             .v = ld_interval_angle(y->v, x->v)};
+    jet r = joined(x, y, ld_interval_angle(y->v, x->v));
     const bool known = r.v.lo > -INFINITY;
     for (int j = first_of(&r); j < r.n; j = next_of(&r, j)) {
         r.d[j] = ld_interval_sub(ld_interval_mul(a.v, y->d[j]), ld_interval_mul(b.v, x->d[j]));
@@ -257,10 +307,10 @@ jet jet_angle(const jet *y, const jet *x)
 /* If the sign may change over the box, the function may jump: the result is unbounded. */
 jet jet_copysign(const jet *x, const jet *y)
 {
-    const jet size = jet_apply(jet_abs_, x);
-    if (y->v.lo >= 0) return size;
-    if (y->v.hi < 0) return jet_neg(&size);
-    jet r = {.n = x->n, .bends = bends_of(x, y), .on = x->on | y->on, .v = ld_interval_entire()};
+    const jet size = jet_apply(jet_abs_, x), minus = jet_neg(&size);
+    if (y->v.lo >= 0) return alone(&size, y);
+    if (y->v.hi < 0) return alone(&minus, y);
+    jet r = joined(x, y, ld_interval_entire());
     for (int j = first_of(&r); j < r.n; j = next_of(&r, j)) r.d[j] = ld_interval_entire();
     for (int j = first_of(&r); j < r.n; j = next_of(&r, j))
         for (int k = j; k < r.bends; k = next_of(&r, k)) r.h[j][k] = ld_interval_entire();

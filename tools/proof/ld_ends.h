@@ -44,6 +44,8 @@ static inline bool ld_interval_is(ld_interval x, proof_real value)
     return x.lo == value && x.hi == value;
 }
 
+static inline bool ld_interval_excludes_0(ld_interval x) { return x.lo > 0 || x.hi < 0; }
+
 /* Greatest |z|. */
 static inline proof_real ld_interval_mag(ld_interval x)
 {

@@ -368,7 +368,8 @@ static bool read_end(reader *r, ld_interval *end)
     r->at = from;
     const int value = read_sum(r);
     if (r->fault[0] != '\0') return false;
-    if (!formula_constant(r->f, value, end)) fail(r, "an end of a range has variables in it");
+    if (!formula_constant(r->f, value, end))
+        fail(r, "an end of a range has variables in it, or no value");
     return r->fault[0] == '\0';
 }
 

@@ -36,6 +36,7 @@ typedef struct step {
     double number;
     ld_interval constant;
     unsigned uses;    /* bit j: it depends on variable j */
+    bool is_total;    /* it has a value for all values of the variables */
     bool is_narrowed; /* by formula_jets_about: it is a coordinate, or what uses it is not linear */
     jet_function *function;
 } step;
@@ -46,7 +47,7 @@ struct formula {
     step steps[STEPS_MAX]; /* while it is read; then only `count` of them are there */
 };
 
-/* Computes a step that depends on no variable. False: it depends on one. */
+/* Computes a step that depends on no variable. False: it depends on one, or has no value. */
 bool formula_constant(formula *f, int which, ld_interval *value);
 
 /* Reads one part of a text, as formula_read_part. */

@@ -271,7 +271,8 @@ static outcome look_at_pieces(prover *p, const cell *c, cut *by, double *found)
         const kept *k = kept_look(p->kept, &of, &where);
         const split *parts = &k->divide;
         if (k->result == ENCLOSED_EMPTY) return APART;
-        if (k->result == ENCLOSED_UNSAID) return fail(p, c, INFINITY, shadow_left_open);
+        const char *why = shadow_why_unknown(k->result);
+        if (why != NULL) return fail(p, c, INFINITY, why);
         *by = (cut){parts->along == T ? 2 : side, parts->along % T, parts->at};
         if (k->result == ENCLOSED_SPLIT) return DIVIDE;
         for (int i = 0; i < 3; ++i) x[side][i] = k->centre[i].v;

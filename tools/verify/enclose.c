@@ -44,6 +44,15 @@ static enclosed choose(const piece *p, const box3 *b, const part **found, split 
     return divides(p, b, divide) ? ENCLOSED_SPLIT : ENCLOSED_EMPTY;
 }
 
+/* Returns the next part after `p` that the whole box is in, or NULL: boxes without a size, and ends
+ * that are known to an ulp, may be in several. */
+static const part *next_part(const piece *all, const part *p, const box3 *b)
+{
+    for (++p; p < all->parts + all->count; ++p)
+        if (holds(p, b)) return p;
+    return NULL;
+}
+
 /* Whether a part of a surface begins when the claim ends, or ends when it begins, and the box has a
  * face in common with it: no neighbouring box holds that face. */
 static bool touches_end(const place *p, const piece *all, const box3 *b)
@@ -68,8 +77,8 @@ static const piece *piece_of(const place *p, size_t stage_index)
 
 /* Computes a formula of an instance; steps that depend only on what was the same the last time are
  * not computed again: most of a motion is a matter of time alone. */
-static void compute(const place *p, size_t stage_index, const formula *f, const box3 *where,
-                    const double at[3], formula_boxes *given, jet out[3], jet centre[3])
+static void compute_part(const place *p, size_t stage_index, const formula *f, const box3 *where,
+                         const double at[3], formula_boxes *given, jet out[3], jet centre[3])
 {
     memo unkept = {.value = p->room}, *m = &unkept;
     if (p->memos != NULL) m = &p->memos[p->chain->stages[stage_index]];
@@ -92,6 +101,42 @@ static void compute(const place *p, size_t stage_index, const formula *f, const 
     formula_jets_about(f, given, m->value, out, centre);
 }
 
+/* Computes a stage from its first part that the box is in, and from all others that it is in. */
+static void compute(const place *p, size_t stage_index, const part *first, const box3 *in,
+                    const box3 *where, const double at[3], formula_boxes *given, jet out[3],
+                    jet centre[3])
+{
+    compute_part(p, stage_index, first->f, where, at, given, out, centre);
+    const piece *all = piece_of(p, stage_index);
+    for (const part *q = next_part(all, first, in); q != NULL; q = next_part(all, q, in)) {
+        jet out2[3], centre2[3];
+        compute_part(p, stage_index, q->f, where, at, given, out2, centre2);
+        for (int i = 0; i < 3; ++i) {
+            out[i] = jet_hull(&out[i], &out2[i]);
+            centre[i] = jet_hull(&centre[i], &centre2[i]);
+        }
+    }
+}
+
+static bool is_undefined(const jet x[3])
+{
+    return x[0].is_undefined || x[1].is_undefined || x[2].is_undefined;
+}
+
+/* Lets x, y and z be anything. */
+static void forget(jet x[3])
+{
+    const ld_interval all = ld_interval_entire();
+    for (int i = 0; i < 3; ++i) {
+        x[i].on = (1 << VARIABLES) - 1;
+        x[i].v = all;
+        for (int j = 0; j < VARIABLES; ++j) {
+            x[i].d[j] = all;
+            for (int k = j; k < VARIABLES; ++k) x[i].h[j][k] = all;
+        }
+    }
+}
+
 enclosed enclose(const place *p, const box3 *where, const double at[3], jet out[3], jet centre[3],
                  split *divide)
 {
@@ -109,15 +154,19 @@ enclosed enclose(const place *p, const box3 *where, const double at[3], jet out[
     enclosed result = choose(piece_of(p, 0), where, &found, divide);
     if (result == ENCLOSED_EMPTY && touches_end(p, piece_of(p, 0), where)) return ENCLOSED_UNSAID;
     if (result != ENCLOSED) return result;
-    compute(p, 0, found->f, where, at, &given, out, centre);
+    compute(p, 0, found, where, where, at, &given, out, centre);
+    bool undefined = is_undefined(out);
     wide[3] = wide[T], narrow[3] = narrow[T];
     const box3 times = {{-INFINITY, -INFINITY, where->lo[T]}, {INFINITY, INFINITY, where->hi[T]}};
-    for (size_t k = 1; k <= p->maps; ++k) {
+    for (size_t k = 1; k <= p->maps && !is_undefined(centre); ++k) {
         for (int i = 0; i < 3; ++i) wide[i] = out[i], narrow[i] = centre[i];
         result = choose(piece_of(p, k), &times, &found, divide);
         if (result != ENCLOSED) return result == ENCLOSED_EMPTY ? ENCLOSED_UNSAID : result;
-        compute(p, k, found->f, where, at, &given, out, centre);
+        compute(p, k, found, &times, where, at, &given, out, centre);
+        undefined = undefined || is_undefined(out);
     }
+    if (is_undefined(centre)) return ENCLOSED_UNDEFINED;
+    if (undefined) forget(out);
     return ENCLOSED;
 }
 
@@ -136,7 +185,7 @@ void piece_box(const place *p, box3 *all)
 /* --- Rigid maps ------------------------------------------------------------------------------- */
 
 /* Lemma. A second derivative by two of x, y and z that is exactly 0 for all x, y and z (the whole
- * line) makes the map affine in them. */
+ * line), for all of which the map is defined, makes the map affine in them. */
 static bool is_affine(const part *p, ld_interval t, jet room[])
 {
     jet variables[4] = {[3] = jet_constant(3, t)}, out[3];
@@ -146,7 +195,7 @@ static bool is_affine(const part *p, ld_interval t, jet room[])
     for (int i = 0; i < 3; ++i)
         for (int k = 0; k < 3; ++k)
             for (int l = k; l < 3; ++l) affine = affine && ld_interval_is(out[i].h[k][l], 0);
-    return affine;
+    return affine && !is_undefined(out);
 }
 
 /* The columns of J as jets of t: where an affine map takes the unit vectors, less where it takes
@@ -208,10 +257,14 @@ static double worst(const piece *p, double lo, double hi, int depth, jet room[])
     double at = lo + 0.5 * (hi - lo);
     if (result != ENCLOSED && result != ENCLOSED_SPLIT) return INFINITY;
     if (result == ENCLOSED) {
-        const double d = deviation(found, lo, hi, room);
+        double d = 0, there = 0;
+        for (const part *q = found; q != NULL; q = next_part(p, q, &times)) {
+            d = proof_larger(d, deviation(q, lo, hi, room));
+            there = proof_larger(there, deviation(q, at, at, room));
+        }
         if (d <= DEVIATION_SMALL || depth >= HALVINGS || !(lo < at && at < hi) || isinf(d))
             return d;
-        if (deviation(found, at, at, room) > 0.5 * d) return d; /* it is no smaller there */
+        if (there > 0.5 * d) return d; /* it is no smaller there */
     } else {
         at = divide.at;
     }

@@ -14,9 +14,10 @@ enum { U, V, T, VARIABLES };
 
 typedef enum enclosed {
     ENCLOSED,
-    ENCLOSED_EMPTY, /* the surface does not exist there */
-    ENCLOSED_SPLIT, /* divide the box at `at` of variable `along` */
-    ENCLOSED_UNSAID /* a formula leaves open what is there */
+    ENCLOSED_EMPTY,    /* the surface does not exist there */
+    ENCLOSED_SPLIT,    /* divide the box at `at` of variable `along` */
+    ENCLOSED_UNSAID,   /* a formula leaves open what is there */
+    ENCLOSED_UNDEFINED /* a formula has no value at `at` */
 } enclosed;
 
 typedef struct box3 {
@@ -44,7 +45,8 @@ typedef struct place {
     memo *memos;        /* of each instance; NULL: nothing is kept */
 } place;
 
-/* Computes x, y and z over the box, and at a point of it, there without second derivatives. */
+/* Computes x, y and z over the box, and at a point of it, there without second derivatives. They
+ * are everything where a formula may have no value somewhere in the box. */
 enclosed enclose(const place *p, const box3 *where, const double at[3], jet out[3], jet centre[3],
                  split *divide);
 

@@ -44,6 +44,7 @@ static void name_assumed(const statement *s, const bool *assumed, char *text, si
         if (is_new)
             snprintf(text + used, size - used, "%s%s", used > 0 ? ", " : "", s->stages[k].type);
     }
+    if (strlen(text) + 1 == size) memcpy(text + size - 4, "...", 4); /* not all fit in */
 }
 
 static void show_progress(uint64_t bytes)

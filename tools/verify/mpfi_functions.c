@@ -135,6 +135,7 @@ ld_interval ld_interval_integer_power(ld_interval x, int n)
 /* x^y = exp(y log x), x >= 0; with 0 in x, from 0 to the greatest value, where y > 0. */
 ld_interval ld_interval_power(ld_interval x, ld_interval y)
 {
+    if (x.hi == 0 && y.lo > 0) return ld_interval_of(0);
     if (!(x.hi > 0) || !ld_interval_is_finite(x) || !ld_interval_is_finite(y))
         return ld_interval_entire();
     const ld_interval positive = {x.lo > 0 ? x.lo : x.hi, x.hi};

@@ -98,7 +98,11 @@ static shadow cast(const kept *k, const aim *a)
 
 /* --- Areas ------------------------------------------------------------------------------------ */
 
-const char shadow_left_open[] = "a formula leaves open what is there at these times";
+const char *shadow_why_unknown(enclosed result)
+{
+    if (result == ENCLOSED_UNSAID) return "a formula leaves open what is there at these times";
+    return result == ENCLOSED_UNDEFINED ? "a formula has no value at a point of it" : NULL;
+}
 
 static const char *add_halves(areas *all, const place *of, const box3 *where, const aim *a,
                               const split *by)
@@ -115,7 +119,7 @@ const char *areas_add(areas *all, const place *of, const box3 *where, const aim 
     const split by = k->divide;
     if (k->result == ENCLOSED_EMPTY) return NULL;
     if (k->result == ENCLOSED_SPLIT) return add_halves(all, of, where, a, &by);
-    if (k->result == ENCLOSED_UNSAID) return shadow_left_open;
+    if (k->result != ENCLOSED) return shadow_why_unknown(k->result);
     area *grown = array_reserve(all->at, all->count, &all->room, sizeof *grown);
     if (grown == NULL) return "memory ran out";
     all->at = grown;
@@ -127,10 +131,14 @@ const char *areas_divide(areas *all, size_t index, const aim *a, bool *divided)
 {
     const area was = all->at[index];
     split by = {-1, 0};
+    double most = 0, widest = 0;
     for (int j = 0; j < VARIABLES; ++j) {
         const double lo = was.where.lo[j], hi = was.where.hi[j], mid = middle(lo, hi);
         if (!(lo < mid && mid < hi)) continue;
-        if (by.along < 0 || was.s.size[j] > was.s.size[by.along]) by = (split){j, mid};
+        const double width = hi - lo, size = was.s.size[j];
+        if (by.along >= 0 && !(size > most) && !(size == most && width > widest)) continue;
+        by = (split){j, mid};
+        most = size, widest = width;
     }
     *divided = by.along >= 0;
     if (!*divided) return NULL;

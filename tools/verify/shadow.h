@@ -78,6 +78,7 @@ typedef struct reach {
 
 reach areas_reach(const areas *all);
 
-extern const char shadow_left_open[]; /* why a box of a surface is not known */
+/* Why a box of a surface is not known; NULL: it is. */
+const char *shadow_why_unknown(enclosed result);
 
 #endif

@@ -228,6 +228,7 @@ static void read_within(statement *s, input *in, char **rest)
         s->point[k].piece = whole(in, &more, PIECES_MAX);
         s->point[k].u = number(in, &more);
         s->point[k].v = number(in, &more);
+        if (more != NULL) input_refuse(in, "a line 'point' is too long");
         free(line);
     }
     s->has_points = true;
@@ -242,6 +243,25 @@ static const struct {
 } verdicts[] = {{"clear", false},    {"undecided", false}, {"holds", false},
                 {"distance", false}, {"contact", true},    {"violated", true}};
 
+static int compare_names(const void *x, const void *y)
+{
+    return strcmp(*(char *const *)x, *(char *const *)y);
+}
+
+/* Refuses two bodies of one name: what is found of one would be read as if it were of the other. */
+static bool check_names(const statement *s, input *in)
+{
+    const char **sorted = malloc((s->body_count + 1) * sizeof *sorted);
+    if (sorted == NULL) return input_refuse(in, "memory ran out");
+    for (size_t k = 0; k < s->body_count; ++k) sorted[k] = s->bodies[k];
+    qsort(sorted, s->body_count, sizeof *sorted, compare_names);
+    for (size_t k = 1; k < s->body_count; ++k)
+        if (strcmp(sorted[k - 1], sorted[k]) == 0)
+            input_refuse(in, "two bodies are named '%.60s'", sorted[k]);
+    free(sorted);
+    return !input_is_refused(in);
+}
+
 static bool check_claim(const statement *s, input *in, unsigned keys)
 {
     bool known = false;
@@ -251,7 +271,8 @@ static bool check_claim(const statement *s, input *in, unsigned keys)
                           (s->has_points || !verdicts[k].has_points));
     if (keys != KEYS_NEEDED || !(s->apart >= 0) || !(s->from <= s->to))
         return input_refuse(in, "it says nothing of 'apart', 'from' and 'to'");
-    return known || input_refuse(in, "it has no verdict, or no points for it");
+    if (!known) return input_refuse(in, "it has no verdict, or no points for it");
+    return check_names(s, in);
 }
 
 /* Reads a line; *done becomes true at the last. */
@@ -259,6 +280,7 @@ static void read_line(statement *s, input *in, char *line, unsigned *keys, bool 
 {
     char *rest = line;
     const char *key = word(in, &rest);
+    const bool is_text = strcmp(key, "program") == 0 || strcmp(key, "body") == 0;
     const bool is_number =
         strcmp(key, "apart") == 0 || strcmp(key, "from") == 0 || strcmp(key, "to") == 0;
     if (is_number) {
@@ -271,7 +293,7 @@ static void read_line(statement *s, input *in, char *line, unsigned *keys, bool 
         *done = true;
     else if (strcmp(key, "program") == 0)
         copy(in, s->program, sizeof s->program, rest != NULL ? rest : "");
-    else if (strcmp(key, "verdict") == 0)
+    else if (strcmp(key, "verdict") == 0 && s->verdict[0] == '\0')
         copy(in, s->verdict, sizeof s->verdict, word(in, &rest));
     else if (strcmp(key, "scene") == 0 || strcmp(key, "type") == 0)
         read_source(s, in, key, &rest);
@@ -287,6 +309,7 @@ static void read_line(statement *s, input *in, char *line, unsigned *keys, bool 
         read_ignored(s, in, &rest);
     else
         input_refuse(in, "a line begins with '%.40s'", key);
+    if (rest != NULL && !is_text) input_refuse(in, "a line '%.40s' is too long", key);
 }
 
 bool statement_read(statement *s, input *in)

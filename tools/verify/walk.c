@@ -250,18 +250,30 @@ static bool find_point(walk *w, int k, jet *room, ld_interval x[3])
 {
     const statement *s = w->says;
     const point *q = &s->point[k];
-    if (q->chain >= s->chain_count) return input_refuse(w->in, "a point is on no surface");
     const chain *c = &s->chains[q->chain];
-    if (q->piece >= s->stages[c->stages[0]].count)
-        return input_refuse(w->in, "a point is on no piece");
     const place p = {s, c, q->piece, c->count - 1, room, NULL};
     const box3 where = {{q->u, q->v, s->t}, {q->u, q->v, s->t}};
     jet out[3], same[3];
     split unused;
     if (enclose(&p, &where, where.lo, out, same, &unused) != ENCLOSED)
-        return input_refuse(w->in, "a point is outside of its surface");
+        return input_refuse(w->in, "a point is outside of its surface, or has no value");
     for (int i = 0; i < 3; ++i) x[i] = out[i].v;
     return true;
+}
+
+static bool check_points(walk *w)
+{
+    const statement *s = w->says;
+    const point *p = s->point;
+    for (int k = 0; k < 2; ++k) {
+        if (p[k].chain >= s->chain_count) return input_refuse(w->in, "a point is on no surface");
+        if (p[k].piece >= s->stages[s->chains[p[k].chain].stages[0]].count)
+            return input_refuse(w->in, "a point is on no piece");
+    }
+    if (statement_ignores(s, s->chains[p[0].chain].body, s->chains[p[1].chain].body))
+        return input_refuse(w->in, "the points are of bodies that are not tested");
+    return (s->from <= s->t && s->t <= s->to) ||
+           input_refuse(w->in, "the points are of another time");
 }
 
 bool walk_points(walk *w)
@@ -270,7 +282,8 @@ bool walk_points(walk *w)
     ld_interval x[2][3], sum = ld_interval_of(0);
     bool said = true;
     if (!s->has_points) return true;
-    for (int k = 0; k < 2 && s->point[k].chain < s->chain_count; ++k) {
+    if (!check_points(w)) return false;
+    for (int k = 0; k < 2; ++k) {
         const chain *c = &s->chains[s->point[k].chain];
         if (!statement_is_said(s, c)) note_assumed(w, c), said = false;
     }
@@ -280,10 +293,6 @@ bool walk_points(walk *w)
     for (int k = 0; k < 2 && good; ++k) good = find_point(w, k, room, x[k]);
     free(room);
     if (!good) return false;
-    if (statement_ignores(s, s->chains[s->point[0].chain].body, s->chains[s->point[1].chain].body))
-        return input_refuse(w->in, "the points are of bodies that are not tested");
-    if (!(s->from <= s->t && s->t <= s->to))
-        return input_refuse(w->in, "the points are of another time");
     for (int i = 0; i < 3; ++i)
         sum = ld_interval_add(sum, ld_interval_sqr(ld_interval_sub(x[1][i], x[0][i])));
     const ld_interval gap = ld_interval_sqrt(sum);
