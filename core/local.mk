@@ -78,6 +78,7 @@ core_plugin = \
     core/plugin/isolate.c core/plugin/isolate.h core/plugin/isolate_internal.h \
     core/plugin/isolate_stand_in.c \
     core/plugin/json_describe.c core/plugin/json_describe.h \
+    core/plugin/kept_instances.c core/plugin/kept_instances.h \
     core/plugin/load_cache.c \
     core/plugin/load_probe.c core/plugin/load_probe.h \
     core/plugin/output_guard.c core/plugin/output_guard.h \
@@ -225,7 +226,7 @@ core_reader = \
     core/reader/pipeline_value.c core/reader/pipeline_value.h \
     core/reader/required_plugins.c core/reader/required_plugins.h \
     core/reader/scene_bodies.c core/reader/scene_bodies.h \
-    core/reader/scene_build.c core/reader/scene_build.h \
+    core/reader/scene_build.c core/reader/scene_build.h core/reader/scene_shared.c \
     core/reader/scene_file.c core/reader/scene_file.h \
     core/reader/scene_json.c core/reader/scene_json.h \
     core/reader/scene_instances.c core/reader/scene_instances.h

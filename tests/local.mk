@@ -40,6 +40,7 @@ check_suites = \
     tests/unit/test_lanes \
     tests/unit/test_limits \
     tests/unit/test_locale \
+    tests/unit/test_kept_instances \
     tests/unit/test_linked_in \
     tests/unit/test_load_cache \
     tests/unit/test_loosened \

@@ -125,7 +125,12 @@ IMP_EXPORT imp_code imp_registry_add(imp_registry *registry, const imp_plugin *p
                                      imp_error *error);
 
 /* Frees a registry, whose scenes are freed already. Until then it keeps up to 1 MiB of the memory
- * of scenes that were freed, for the next ones. */
+ * of scenes that were freed, for the next ones, and instances of types that read files, such as
+ * meshes: a scene that names such a file with equal parameters shares the instance, and what
+ * queries found out about all of its pieces, as long as the file stays as it was, by its inode,
+ * size and times (and had not changed within two seconds before it was read). It keeps at most 256
+ * instances of 256 MiB together, and none that a thousand later ones did not ask for. Each scene
+ * counts those it uses in its bytes. */
 IMP_EXPORT void imp_registry_free(imp_registry *registry);
 
 /* From now on, new instances of these types (names between commas; NULL: all) live in other

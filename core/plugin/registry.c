@@ -5,6 +5,7 @@
 #include "core/base/status.h"
 #include "core/base/text.h"
 #include "core/common/spelling.h"
+#include "core/plugin/kept_instances.h"
 #include "core/plugin/registry_internal.h"
 
 #include <stdio.h>
@@ -21,6 +22,8 @@ const found_type *registry_find(const imp_registry *r, imp_type_kind kind, const
 }
 
 arena_store *registry_store(const imp_registry *registry) { return registry->store; }
+
+struct kept_instances *registry_kept(const imp_registry *registry) { return registry->kept; }
 
 const imp_surface_type *registry_find_surface(const imp_registry *registry, const char *name)
 {
@@ -218,6 +221,7 @@ static void free_remarks(remarks *told)
 void imp_registry_free(imp_registry *r)
 {
     if (r == NULL) return;
+    kept_instances_free(r->kept);
     worker_pool_free(r->workers);
     arena_store_free(r->store);
     free_remarks(&r->refusals);

@@ -21,6 +21,10 @@ imp_registry *registry_scan(const search_path *path, unsigned flags);
 /* Returns the memory that scenes made by the registry share; it lives as long as that. */
 arena_store *registry_store(const imp_registry *registry);
 
+/* Returns the instances that are kept for the next scenes of the same files (kept_instances.h). */
+struct kept_instances;
+struct kept_instances *registry_kept(const imp_registry *registry);
+
 /* Find a type by its name. NULL: not found. */
 const imp_surface_type *registry_find_surface(const imp_registry *registry, const char *name);
 const imp_map_type *registry_find_map(const imp_registry *registry, const char *name);

@@ -52,6 +52,7 @@ struct imp_registry {
     bool secure;
     char *isolated; /* names between commas, ",a,b,"; "" for all; NULL for none */
     arena_store *store;
+    struct kept_instances *kept;
     worker_pool *workers; /* where isolated types run; NULL: none was isolated yet */
 };
 

@@ -9,6 +9,7 @@
 #include "core/common/capabilities.h"
 #include "core/common/system_error.h"
 #include "core/plugin/file_trust.h"
+#include "core/plugin/kept_instances.h"
 #include "core/plugin/registry_internal.h"
 
 #include <errno.h>
@@ -191,8 +192,9 @@ static imp_registry *registry_new(void)
     imp_registry *r = calloc(1, sizeof *r);
     if (r == NULL) return NULL;
     r->store = arena_store_new();
-    if (r->store != NULL) return r;
-    free(r);
+    r->kept = kept_instances_new();
+    if (r->store != NULL && r->kept != NULL) return r;
+    imp_registry_free(r);
     return NULL;
 }
 

@@ -29,11 +29,22 @@ static unsigned char *put(unsigned char *to, const void *from, size_t size)
     return to + padded(size);
 }
 
+/* A value as it is written: its addresses only tell whether there is something. */
+static imp_value without_addresses(const imp_value *v)
+{
+    static const double number;
+    static const char *const string = "";
+    imp_value written = *v;
+    if (v->number != NULL) written.number = &number;
+    if (v->string != NULL) written.string = &string;
+    return written;
+}
+
 void value_bytes_write(const imp_value *values, size_t count, unsigned char *bytes)
 {
     for (size_t k = 0; k < count; ++k) {
-        const imp_value *v = &values[k];
-        bytes = put(bytes, v, sizeof *v);
+        const imp_value *v = &values[k], written = without_addresses(v);
+        bytes = put(bytes, &written, sizeof written);
         if (v->number != NULL) bytes = put(bytes, v->number, v->count * sizeof *v->number);
         for (size_t j = 0; v->string != NULL && j < v->count; ++j)
             bytes = put(bytes, v->string[j], strlen(v->string[j]) + 1);

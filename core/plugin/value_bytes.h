@@ -11,7 +11,8 @@
 /* Parameter values as bytes, for another process
  * ==============================================
  * For each value its imp_value, its numbers and its strings, each string with its NUL; every part
- * is padded to a multiple of 8 bytes. Both processes run the same program, so layouts agree. */
+ * is padded to a multiple of 8 bytes. Both processes run the same program, so layouts agree. Within
+ * one process equal values have equal bytes. */
 
 /* Bytes that `count` values take. */
 size_t value_bytes_size(const imp_value *values, size_t count);

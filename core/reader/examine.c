@@ -26,8 +26,7 @@ FP_APART static imp_code from_text(imp_registry *registry, imp_type_kind kind, c
     imp_code code = IMP_SUCCESS;
     if (json_object_get(stage, "clock") != NULL) /* there is no scene whose parameter it names */
         code = place_error(&at, why, IMP_ERROR_SCENE, "'clock' belongs to scenes; leave it out");
-    if (code == IMP_SUCCESS)
-        code = scene_build_instance(&source, kind, stage, &at, instance, NULL, why);
+    if (code == IMP_SUCCESS) code = scene_build_instance(&source, kind, stage, &at, instance, why);
     json_decref(stage);
     return code;
 }

@@ -120,8 +120,9 @@ static bool is_whole(const guarded_error *g)
         if (g->before[k] != MARK) return false;
     for (size_t k = 0; k < sizeof g->after; ++k)
         if (g->after[k] != MARK) return false;
-    /* A text that does not end, and a note behind it: the text went on into the note. */
-    return g->why.text[sizeof g->why.text - 1] == '\0' || g->why.note_count == 0;
+    /* A text that does not end, and something behind it: the text went on there. */
+    return (g->why.text[sizeof g->why.text - 1] == '\0' || g->why.note_count == 0) &&
+           (g->why.note[sizeof g->why.note - 1] == '\0' || g->why.is_repeatable == 0);
 }
 
 /* Takes a note over; texts of plugins are not trusted. */
@@ -158,8 +159,10 @@ static imp_code run_create(const type_view *view, isolated *stand_in, const char
     if (*self == NULL)
         return blame(file, view, "create returned IMP_STATUS_OK without an instance", at, error);
     if (note != NULL && g.why.note_count > 0) take_note(&view->table, &g.why, note);
+    if (note != NULL) note->is_repeatable = g.why.is_repeatable == 1;
     if (kept) return IMP_SUCCESS;
     view->destroy(*self);
+    *self = NULL;
     fp_mode_kept(before);
     return blame(file, view, "create changed the mode of arithmetic", at, error);
 }
@@ -185,23 +188,6 @@ static bool keep_numbers(const type_view *view, const parameter_values *values, 
     return fixed_numbers_copy(to, t->rows, t->count, t->stride, values->value);
 }
 
-static imp_code create(const type_view *view, isolated *stand_in, const char *file,
-                       const char *folder, const json_t *object, const place *at, void **self,
-                       scene_build_note *note, imp_error *error)
-{
-    parameter_values values;
-    imp_code code = parameters_read(&view->table, view->name, object, folder, at, &values, error);
-    if (code != IMP_SUCCESS) return code;
-    if (note == NULL || !view->has_formula || keep_numbers(view, &values, &note->numbers))
-        code = run_create(view, stand_in, file, &values, at, self, note, error);
-    else
-        code = error_set_memory(error);
-    if (note != NULL) note->bytes += bytes_of_files(&view->table, &values);
-    if (note != NULL && stand_in != NULL) note->bytes += isolate_bytes(stand_in);
-    parameters_clear(&values);
-    return code;
-}
-
 /* Puts a stand-in in the place of the instance's type. False: no memory. */
 static bool isolate(worker_pool *workers, imp_instance *i, isolated **stand_in)
 {
@@ -215,126 +201,68 @@ static bool isolate(worker_pool *workers, imp_instance *i, isolated **stand_in)
     return true;
 }
 
-imp_code scene_build_instance(const scene_source *source, imp_type_kind kind, const json_t *object,
-                              const place *at, imp_instance *instance, scene_build_note *note,
-                              imp_error *error)
+static imp_code find_type(const imp_registry *registry, imp_type_kind kind, const json_t *object,
+                          const place *at, scene_making *m, imp_error *error)
 {
-    const imp_registry *registry = source->registry;
     const char *name = NULL;
-    imp_code code = read_type(object, kind, at, &name, error);
+    const imp_code code = read_type(object, kind, at, &name, error);
     if (code != IMP_SUCCESS) return code;
-    imp_instance i = {.self = NULL};
+    imp_instance *i = &m->instance;
     if (kind == IMP_TYPE_SURFACE)
-        i.surface = registry_find_surface(registry, name);
+        i->surface = registry_find_surface(registry, name);
     else
-        i.map = registry_find_map(registry, name);
+        i->map = registry_find_map(registry, name);
     place where = at->argument ? *at : place_key(at, "type");
-    if (i.surface == NULL && i.map == NULL) return refuse_type(registry, kind, name, &where, error);
-    type_view view = i.surface != NULL ? type_view_of_surface(i.surface) : type_view_of_map(i.map);
-    const char *file = registry_find_file(registry, kind, name);
-    isolated *stand_in = NULL;
+    if (i->surface == NULL && i->map == NULL)
+        return refuse_type(registry, kind, name, &where, error);
+    m->view = i->surface != NULL ? type_view_of_surface(i->surface) : type_view_of_map(i->map);
+    m->file = registry_find_file(registry, kind, name);
     worker_pool *workers = registry_isolation(registry, name);
-    if (workers != NULL && !isolate(workers, &i, &stand_in)) return error_set_memory(error);
-    code = create(&view, stand_in, file, source->folder, object, at, &i.self, note, error);
-    if (code == IMP_SUCCESS)
-        *instance = i;
-    else
-        isolate_destroy(stand_in);
+    if (workers != NULL && !isolate(workers, i, &m->stand_in)) return error_set_memory(error);
+    return IMP_SUCCESS;
+}
+
+imp_code scene_making_begin(scene_making *m, const scene_source *source, imp_type_kind kind,
+                            const json_t *object, const place *at, imp_error *error)
+{
+    *m = (scene_making){.view.name = NULL};
+    imp_code code = find_type(source->registry, kind, object, at, m, error);
+    if (code != IMP_SUCCESS) return code;
+    code = parameters_read(&m->view.table, m->view.name, object, source->folder, at, &m->values,
+                           error);
+    if (code != IMP_SUCCESS) isolate_destroy(m->stand_in);
     return code;
 }
 
-/* --- Putting together ------------------------------------------------------------------------- */
-
-/* Writes the value as it would stand on a command line. False: it is too long for that. */
-static bool write_value(char *text, size_t size, const json_t *value)
+imp_code scene_making_create(scene_making *m, const place *at, scene_build_note *note,
+                             imp_error *error)
 {
-    int length = -1;
-    if (json_is_number(value))
-        length = snprintf(text, size, "%.15g", json_number_value(value));
-    else if (json_is_boolean(value))
-        length = snprintf(text, size, "%s", json_is_true(value) ? "true" : "false");
-    else if (json_is_string(value))
-        length = snprintf(text, size, "'%s'", json_string_value(value));
-    return length >= 0 && (size_t)length < size;
+    imp_code code;
+    if (note == NULL || !m->view.has_formula || keep_numbers(&m->view, &m->values, &note->numbers))
+        code = run_create(&m->view, m->stand_in, m->file, &m->values, at, &m->instance.self, note,
+                          error);
+    else
+        code = error_set_memory(error);
+    if (code != IMP_SUCCESS) m->instance.self = NULL;
+    if (note != NULL) note->bytes += bytes_of_files(&m->view.table, &m->values);
+    if (note != NULL && m->stand_in != NULL) note->bytes += isolate_bytes(m->stand_in);
+    return code;
 }
 
-/* Writes a short list as it would stand on a command line: 1,0,0. False: it is too long for
- * that. */
-static bool write_list(char *text, size_t size, const json_t *list)
+void scene_making_clear(scene_making *m)
 {
-    size_t used = 0;
-    for (size_t i = 0; i < json_array_size(list); ++i) {
-        if (i > 0 && used + 1 < size) text[used++] = ',';
-        if (!write_value(text + used, size - used, json_array_get(list, i))) return false;
-        used += strlen(text + used);
-    }
-    return used > 0;
+    if (m->instance.self == NULL) isolate_destroy(m->stand_in);
+    parameters_clear(&m->values);
 }
 
-/* " radius=2", or the name alone where the value is long. */
-static void label_parameter(char label[INSTANCE_LABEL_MAX], const char *name, const json_t *value)
+imp_code scene_build_instance(const scene_source *source, imp_type_kind kind, const json_t *object,
+                              const place *at, imp_instance *instance, imp_error *error)
 {
-    char text[120];
-    const size_t head = (size_t)snprintf(text, sizeof text, " %.40s=", name);
-    const size_t room = sizeof text - head;
-    if (!(json_is_array(value) ? write_list(text + head, room, value)
-                               : write_value(text + head, room, value)))
-        memcpy(text + head, "...", 4);
-    instance_label_add(label, text);
-}
-
-/* "sphere radius=2". False: no memory. */
-static bool label_part(shared_instance *p, const json_t *object)
-{
-    char label[INSTANCE_LABEL_MAX] = "";
-    const char *key;
-    json_t *value;
-    instance_label_add(label, instance_label(p));
-    json_object_foreach((json_t *)unconst(object), key, value)
-    {
-        if (strcmp(key, "type") != 0 && strcmp(key, "maps") != 0)
-            label_parameter(label, key, value);
-    }
-    return instance_set_label(p, label);
-}
-
-/* Counts the bytes of the numbers and texts in the value. */
-static size_t bytes_given(const json_t *value)
-{
-    size_t bytes = json_is_string(value) ? json_string_length(value) : 0, i;
-    const char *key;
-    json_t *item;
-    json_array_foreach(value, i, item) bytes += bytes_given(item);
-    json_object_foreach((json_t *)unconst(value), key, item) bytes += bytes_given(item);
-    return bytes + (json_is_number(value) ? sizeof(double) : 0);
-}
-
-imp_code scene_build_shared(const scene_source *source, imp_type_kind kind, const json_t *object,
-                            const place *at, shared_instance **made, imp_error *error)
-{
-    imp_instance i;
-    scene_build_note note = {.count = 0};
-    imp_code code = scene_build_instance(source, kind, object, at, &i, &note, error);
-    shared_instance *p = code != IMP_SUCCESS        ? NULL
-                         : kind == IMP_TYPE_SURFACE ? instance_of_surface(i.surface, i.self)
-                                                    : instance_of_map(i.map, i.self);
-    if (p == NULL) {
-        free(note.numbers.number);
-        return code != IMP_SUCCESS ? code : error_set_memory(error);
-    }
-    p->numbers = note.numbers;
-    p->given = bytes_given(object) + (size_t)note.bytes;
-    const bool noted = note.count == 0 || instance_set_note(p, note.count, note.text);
-    if (noted && p->breach == IMP_STATUS_OK && label_part(p, object)) {
-        *made = p;
-        return IMP_SUCCESS;
-    }
-    const char *name = json_string_value(json_object_get(object, "type"));
-    code = error_set_memory(error);
-    if (p->breach != IMP_STATUS_OK)
-        code = place_error(at, error, IMP_ERROR_PLUGIN, "'%s' (%s) %s", name,
-                           registry_find_file(source->registry, kind, name),
-                           surface_status_of_last(p->breach).text);
-    instance_release(p);
+    scene_making m;
+    imp_code code = scene_making_begin(&m, source, kind, object, at, error);
+    if (code != IMP_SUCCESS) return code;
+    code = scene_making_create(&m, at, NULL, error);
+    if (code == IMP_SUCCESS) *instance = m.instance;
+    scene_making_clear(&m);
     return code;
 }

@@ -6,7 +6,10 @@
 #include <jansson.h>
 
 #include "core/base/place.h"
+#include "core/plugin/isolate.h"
+#include "core/plugin/parameters.h"
 #include "core/plugin/registry.h"
+#include "core/plugin/type_view.h"
 #include "core/surface/surface.h"
 
 #include <impinge/examine.h>
@@ -23,10 +26,26 @@ typedef struct scene_source {
                            NULL: where the process does */
 } scene_source;
 
-/* Makes the surface, without maps, or the map that `object` at `at` asks for. The caller holds
- * *made. */
+/* Makes the surface, without maps, or the map that `object` at `at` asks for, or finds one that the
+ * registry keeps. The caller holds *made. */
 imp_code scene_build_shared(const scene_source *source, imp_type_kind kind, const json_t *object,
                             const place *at, shared_instance **made, imp_error *error);
+
+/* Makes an instance that is not shared: the type, and what its create made. The caller owns
+ * *instance. */
+imp_code scene_build_instance(const scene_source *source, imp_type_kind kind, const json_t *object,
+                              const place *at, imp_instance *instance, imp_error *error);
+
+/* --- In two steps ----------------------------------------------------------------------------- */
+
+/* What create is called with. */
+typedef struct scene_making {
+    imp_instance instance; /* its `self` is NULL until create has made it */
+    type_view view;
+    const char *file;   /* of the plugin */
+    isolated *stand_in; /* NULL: it is not isolated */
+    parameter_values values;
+} scene_making;
 
 /* What create noted without failing (imp_note), and what it took. */
 typedef struct scene_build_note {
@@ -34,12 +53,16 @@ typedef struct scene_build_note {
     char text[340]; /* one line, with the parameter's name in front */
     uint64_t bytes; /* of the files that its parameters name, and of its stand-in if isolated */
     fixed_numbers numbers; /* for its formula; the caller frees numbers.number */
+    bool is_repeatable;    /* equal values and files make an equal instance (imp_repeatable) */
 } scene_build_note;
 
-/* Makes an instance that is not shared: the type, and what its create made. The caller owns
- * *instance. `note` may be NULL. */
-imp_code scene_build_instance(const scene_source *source, imp_type_kind kind, const json_t *object,
-                              const place *at, imp_instance *instance, scene_build_note *note,
-                              imp_error *error);
+/* Finds the type and reads the values. Clear it unless it fails; it points into `object`. */
+imp_code scene_making_begin(scene_making *m, const scene_source *source, imp_type_kind kind,
+                            const json_t *object, const place *at, imp_error *error);
+
+/* Calls create; the caller then owns m->instance. `note` may be NULL. */
+imp_code scene_making_create(scene_making *m, const place *at, scene_build_note *note,
+                             imp_error *error);
+void scene_making_clear(scene_making *m);
 
 #endif

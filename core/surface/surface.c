@@ -104,9 +104,8 @@ size_t surface_bytes(const surface *s)
 {
     size_t bytes = sizeof *s + INSTANCE_BLOCK + s->piece_count * sizeof *s;
     if (s->outer != NULL) return bytes;
-    bytes += s->map_capacity * sizeof *s->maps + instance_bytes(s->origin) / s->origin->holders;
-    for (size_t k = 0; k < s->map_count; ++k)
-        bytes += instance_bytes(s->maps[k].origin) / s->maps[k].origin->holders;
+    bytes += s->map_capacity * sizeof *s->maps + instance_bytes_share(s->origin);
+    for (size_t k = 0; k < s->map_count; ++k) bytes += instance_bytes_share(s->maps[k].origin);
     return bytes;
 }
 

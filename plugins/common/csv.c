@@ -298,5 +298,6 @@ imp_status csv_read(const char *path, int row, const char *const *name, int name
         r.text != NULL ? csv_read_all(&r, name, name_row, to) : IMP_STATUS_INTERNAL;
     free(r.text);
     fclose(r.file);
+    if (status == IMP_STATUS_OK) imp_repeatable(why);
     return status;
 }

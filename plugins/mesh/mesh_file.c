@@ -98,5 +98,6 @@ imp_status mesh_read_file(const char *path, int row, triangles *to, imp_create_e
         status = IMP_STATUS_INTERNAL;
     free(folder);
     free(bytes);
+    if (status == IMP_STATUS_OK && !to->has_other_files) imp_repeatable(why);
     return status == IMP_STATUS_PARAMETER ? complain(path, row, &fault, why) : status;
 }

@@ -242,6 +242,7 @@ static imp_status read_document(const char *text, size_t length, gltf_data *data
     r.passed = calloc(r.nodes + 1, sizeof *r.passed);
     imp_status status = r.passed != NULL ? check_document(root, data->fault) : IMP_STATUS_INTERNAL;
     if (status == IMP_STATUS_OK) status = add_scene(&r);
+    to->has_other_files |= r.data.has_other_files;
     gltf_data_clear(&r.data);
     free(r.passed);
     json_decref(root);

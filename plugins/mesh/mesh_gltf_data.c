@@ -117,6 +117,7 @@ static imp_status open_file(gltf_data *d, const char *uri, json_int_t index, glt
                                 (long long)index, uri);
     if (!write_path(d->folder, uri, path, sizeof path))
         return gltf_refuse(d, "buffers", index, "/uri", "too long a name");
+    d->has_other_files = true;
     return mesh_read_whole(path, &b->owned, &b->length, d->fault);
 }
 

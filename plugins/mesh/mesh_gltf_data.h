@@ -24,6 +24,7 @@ typedef struct gltf_data {
     size_t binary_length;
     const char *folder;   /* of the file, with '/' at its end; NULL: files are not opened */
     gltf_buffer *buffers; /* as many as the document has; NULL before the first */
+    bool has_other_files; /* some were opened */
     triangles_fault *fault;
 } gltf_data;
 

@@ -29,6 +29,7 @@ typedef struct triangles {
     size_t first_capacity, corner_count;
     triangles_count left_out; /* statements of a file that are no points and no faces */
     triangles_count cut;      /* polygons that a fan would not cover */
+    bool has_other_files;     /* the file named others, which were read */
 } triangles;                  /* begins as {0}, or with keeps_faces set; triangles_clear frees */
 
 void triangles_clear(triangles *t);

@@ -136,6 +136,14 @@ imp_note(imp_create_error *why, int parameter, uint64_t count, const char *forma
     va_end(arguments);
 }
 
+/* Tells the host that create read no other files than those that its parameters name, and nothing
+ * that changes by itself, such as the environment: one instance then serves many scenes of the same
+ * file (is_repeatable). */
+static inline void imp_repeatable(imp_create_error *why)
+{
+    if (IMP_HAS(why, is_repeatable)) why->is_repeatable = 1;
+}
+
 /* --- Domains ---------------------------------------------------------------------------------- */
 
 /* u and v as given, at all times. Angles up to IMP_TWO_PI_UPPER cover the full turn, so that

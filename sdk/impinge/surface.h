@@ -157,6 +157,11 @@ typedef struct imp_create_error {
     uint64_t note_count;    /* how many things the note counts */
     int32_t note_parameter; /* row, or -1 for the type as a whole */
     char note[244];         /* NUL-terminated, one sentence */
+    /* Set to 1 with IMP_STATUS_OK by imp_repeatable: the instance follows from the values and from
+     * the contents of the files that they name (IMP_PARAMETER_FILE), and create read nothing else.
+     * The host may then share it with later scenes, as long as these files do not change. */
+    uint32_t is_repeatable;
+    uint32_t reserved; /* 0 */
 } imp_create_error;
 
 /* --- Regions, rates, models ------------------------------------------------------------------- */
@@ -655,9 +660,10 @@ IMP_LAYOUT(sizeof(double) == 8 && sizeof(void *) == 8 && sizeof(size_t) == 8);
 IMP_LAYOUT(sizeof(imp_parameter) == 72 && offsetof(imp_parameter, kind) == 32);
 IMP_LAYOUT(offsetof(imp_parameter, extent) == 44 && offsetof(imp_parameter, min) == 56);
 IMP_LAYOUT(sizeof(imp_value) == 48 && offsetof(imp_value, number) == 32);
-IMP_LAYOUT(sizeof(imp_create_error) == 512 && offsetof(imp_create_error, text) == 16);
+IMP_LAYOUT(sizeof(imp_create_error) == 520 && offsetof(imp_create_error, text) == 16);
 IMP_LAYOUT(offsetof(imp_create_error, note_count) == 256 &&
            offsetof(imp_create_error, note) == 268);
+IMP_LAYOUT(offsetof(imp_create_error, is_repeatable) == 512);
 IMP_LAYOUT(sizeof(imp_region) == 96 && offsetof(imp_region, c) == 48);
 IMP_LAYOUT(sizeof(imp_box4) == 64);
 IMP_LAYOUT(sizeof(imp_rate_matrix) == 72 && sizeof(imp_map_rates) == 96);

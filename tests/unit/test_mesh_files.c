@@ -9,6 +9,7 @@
 
 #include "plugins/mesh/mesh_file.h"
 #include "plugins/mesh/polygon.h"
+#include "tests/support/sandbox.h"
 #include "tests/support/suite.h"
 
 /* What the readers of mesh files make of whole files, and what they say of broken ones. */
@@ -316,6 +317,33 @@ START_TEST(gltf_buffers_may_be_text)
 }
 END_TEST
 
+/* Its bytes are not told by the document's name, so such a mesh is not kept for later scenes. */
+START_TEST(gltf_buffers_in_other_files_are_noticed)
+{
+    static const char other[] =
+        "{\"asset\":{\"version\":\"2.0\"},\"buffers\":[{\"byteLength\":36,\"uri\":\"a.bin\"}],"
+        "\"bufferViews\":[{\"buffer\":0,\"byteLength\":36}],"
+        "\"accessors\":[{\"bufferView\":0,\"componentType\":5126,\"count\":3,\"type\":\"VEC3\"}],"
+        "\"meshes\":[{\"primitives\":[{\"attributes\":{\"POSITION\":0}}]}],"
+        "\"scene\":0,\"scenes\":[{\"nodes\":[0]}],\"nodes\":[{\"mesh\":0}]}";
+    static const float corners[9] = {0, 0, 0, 1, 0, 0, 0, 1, 0};
+    const bytes whole = glb_of(GLTF_HEAD GLTF_MESHES ",\"nodes\":[{\"mesh\":0}]}");
+    const sandbox box = sandbox_new();
+    triangles to = {.count = 0};
+    imp_create_error why = {.struct_size = sizeof why};
+    sandbox_write(&box, "a.bin", (const char *)corners, sizeof corners);
+    sandbox_write(&box, "a.gltf", other, sizeof other - 1);
+    sandbox_write(&box, "a.glb", whole.at, whole.length);
+    ck_assert(mesh_read_file(sandbox_file(&box, "a.gltf").at, 0, &to, &why) == IMP_STATUS_OK);
+    ck_assert(to.count == 1 && why.is_repeatable == 0);
+    triangles_clear(&to);
+    ck_assert(mesh_read_file(sandbox_file(&box, "a.glb").at, 0, &to, &why) == IMP_STATUS_OK);
+    ck_assert(to.count == 2 && why.is_repeatable == 1);
+    triangles_clear(&to);
+    sandbox_remove(&box);
+}
+END_TEST
+
 static void check_glb_refused(const char *json, const char *words)
 {
     const bytes b = glb_of(json);
@@ -466,6 +494,6 @@ SUITE_MAIN("mesh_files", obj_files_are_read_as_people_have_them,
            ply_text_is_read, ply_binaries_of_both_orders_are_read,
            ply_files_that_end_early_are_refused, broken_ply_heads_are_named,
            glb_nodes_are_placed_by_their_transforms, gltf_buffers_may_be_text,
-           broken_gltf_documents_are_named, glb_files_that_end_early_are_refused,
-           ears_cover_a_polygon_once, polygons_that_cross_themselves_are_refused,
-           notes_count_what_was_done)
+           gltf_buffers_in_other_files_are_noticed, broken_gltf_documents_are_named,
+           glb_files_that_end_early_are_refused, ears_cover_a_polygon_once,
+           polygons_that_cross_themselves_are_refused, notes_count_what_was_done)
