@@ -82,8 +82,10 @@ core_plugin = \
     core/plugin/load_cache.c \
     core/plugin/load_probe.c core/plugin/load_probe.h \
     core/plugin/output_guard.c core/plugin/output_guard.h \
+    core/plugin/parameter_numbers.c core/plugin/parameter_numbers.h \
     core/plugin/parameter_table.c core/plugin/parameter_table.h \
-    core/plugin/parameters.c core/plugin/parameters.h \
+    core/plugin/parameter_value.c \
+    core/plugin/parameters.c core/plugin/parameters.h core/plugin/parameters_internal.h \
     core/plugin/plugin_check.c core/plugin/plugin_check.h \
     core/plugin/plugin_file.c core/plugin/plugin_file.h \
     core/plugin/registry.c core/plugin/registry.h \
@@ -226,10 +228,12 @@ core_reader = \
     core/reader/pipeline_value.c core/reader/pipeline_value.h \
     core/reader/required_plugins.c core/reader/required_plugins.h \
     core/reader/scene_bodies.c core/reader/scene_bodies.h \
-    core/reader/scene_build.c core/reader/scene_build.h core/reader/scene_shared.c \
+    core/reader/scene_build.c core/reader/scene_build.h \
     core/reader/scene_file.c core/reader/scene_file.h \
+    core/reader/scene_instances.c core/reader/scene_instances.h \
     core/reader/scene_json.c core/reader/scene_json.h \
-    core/reader/scene_instances.c core/reader/scene_instances.h
+    core/reader/scene_label.c core/reader/scene_label.h \
+    core/reader/scene_shared.c
 
 # What the library and the command share; each links its own copy.
 noinst_LTLIBRARIES += core/libcommon.la

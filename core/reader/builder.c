@@ -9,10 +9,12 @@
 #include "core/base/fp_mode.h"
 #include "core/reader/arguments.h"
 #include "core/reader/scene_bodies.h"
+#include "core/reader/scene_build.h"
 #include "core/scene/tolerances.h"
 
-/* Scenes that a program builds. What it gives goes the way of scene files from the first check on:
- * a type's arguments become the JSON object that a file would have (arguments.h), never text. */
+/* Scenes that a program builds. A surface's arguments that are numbers become its values at once
+ * (scene_build_numbers). Others, and those that do not fit the type, go the way of scene files:
+ * they become the JSON object that a file would have (arguments.h), never text. */
 
 struct imp_builder {
     const imp_registry *registry;
@@ -134,13 +136,19 @@ imp_code imp_builder_solid(imp_builder *b, size_t body, bool solid, imp_error *e
     return code;
 }
 
-/* The instance that a type's name and arguments make. */
+/* Makes the instance of a type's name and arguments. Maps are looked up by what they were made from
+ * (instance_table.h), which takes the object. */
 static imp_code make(imp_builder *b, imp_type_kind kind, const char *type,
                      const imp_argument *arguments, size_t count, const place *at,
                      shared_instance **made, imp_error *error)
 {
     json_t *object;
-    imp_code code = arguments_to_json(type, arguments, count, at, &object, error);
+    imp_code code = IMP_SUCCESS;
+    if (kind == IMP_TYPE_SURFACE && type != NULL)
+        code = scene_build_numbers(&b->bodies.instances.source, type, arguments, count, at, made,
+                                   error);
+    if (code != IMP_SUCCESS || *made != NULL) return code;
+    code = arguments_to_json(type, arguments, count, at, &object, error);
     if (code != IMP_SUCCESS) return code;
     code = scene_instances_make(&b->bodies.instances, kind, object, at, made);
     json_decref(object);

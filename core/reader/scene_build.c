@@ -8,7 +8,7 @@
 #include "core/base/unconst.h"
 #include "core/plugin/isolate.h"
 #include "core/plugin/json_describe.h"
-#include "core/plugin/parameters.h"
+#include "core/plugin/parameter_numbers.h"
 #include "core/plugin/type_view.h"
 #include "core/reader/scene_build.h"
 
@@ -201,6 +201,17 @@ static bool isolate(worker_pool *workers, imp_instance *i, isolated **stand_in)
     return true;
 }
 
+/* Notes the file of the type that *m has, and isolates it if the registry says so. */
+static imp_code take_type(const imp_registry *registry, imp_type_kind kind, scene_making *m,
+                          imp_error *error)
+{
+    m->file = registry_find_file(registry, kind, m->view.name);
+    worker_pool *workers = registry_isolation(registry, m->view.name);
+    if (workers != NULL && !isolate(workers, &m->instance, &m->stand_in))
+        return error_set_memory(error);
+    return IMP_SUCCESS;
+}
+
 static imp_code find_type(const imp_registry *registry, imp_type_kind kind, const json_t *object,
                           const place *at, scene_making *m, imp_error *error)
 {
@@ -216,10 +227,7 @@ static imp_code find_type(const imp_registry *registry, imp_type_kind kind, cons
     if (i->surface == NULL && i->map == NULL)
         return refuse_type(registry, kind, name, &where, error);
     m->view = i->surface != NULL ? type_view_of_surface(i->surface) : type_view_of_map(i->map);
-    m->file = registry_find_file(registry, kind, name);
-    worker_pool *workers = registry_isolation(registry, name);
-    if (workers != NULL && !isolate(workers, i, &m->stand_in)) return error_set_memory(error);
-    return IMP_SUCCESS;
+    return take_type(registry, kind, m, error);
 }
 
 imp_code scene_making_begin(scene_making *m, const scene_source *source, imp_type_kind kind,
@@ -231,6 +239,20 @@ imp_code scene_making_begin(scene_making *m, const scene_source *source, imp_typ
     code = parameters_read(&m->view.table, m->view.name, object, source->folder, at, &m->values,
                            error);
     if (code != IMP_SUCCESS) isolate_destroy(m->stand_in);
+    return code;
+}
+
+imp_code scene_making_begin_numbers(scene_making *m, const scene_source *source, const char *type,
+                                    const imp_argument *arguments, size_t count, const place *at,
+                                    imp_error *error)
+{
+    *m = (scene_making){.instance.surface = registry_find_surface(source->registry, type)};
+    if (m->instance.surface == NULL) return IMP_SUCCESS;
+    m->view = type_view_of_surface(m->instance.surface);
+    imp_code code = parameter_numbers_read(&m->view.table, arguments, count, at, &m->values, error);
+    if (code != IMP_SUCCESS || m->values.value == NULL) return code;
+    code = take_type(source->registry, IMP_TYPE_SURFACE, m, error);
+    if (code != IMP_SUCCESS) parameters_clear(&m->values);
     return code;
 }
 

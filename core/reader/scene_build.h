@@ -31,6 +31,14 @@ typedef struct scene_source {
 imp_code scene_build_shared(const scene_source *source, imp_type_kind kind, const json_t *object,
                             const place *at, shared_instance **made, imp_error *error);
 
+/* Makes the surface, without maps, that a type's name and typed arguments ask for, without the
+ * object that a scene file would have: the same instance, from the same numbers. *made NULL: it
+ * makes none, because an argument is not numbers, or not as the type's table says; then the object
+ * has to be made, which tells what is wrong. */
+imp_code scene_build_numbers(const scene_source *source, const char *type,
+                             const imp_argument *arguments, size_t count, const place *at,
+                             shared_instance **made, imp_error *error);
+
 /* Makes an instance that is not shared: the type, and what its create made. The caller owns
  * *instance. */
 imp_code scene_build_instance(const scene_source *source, imp_type_kind kind, const json_t *object,
@@ -59,6 +67,13 @@ typedef struct scene_build_note {
 /* Finds the type and reads the values. Clear it unless it fails; it points into `object`. */
 imp_code scene_making_begin(scene_making *m, const scene_source *source, imp_type_kind kind,
                             const json_t *object, const place *at, imp_error *error);
+
+/* Finds the surface type and reads the values, which are numbers, from typed arguments.
+ * m->values.value NULL: they do not fit (parameter_numbers_read); then, and if it fails, there is
+ * nothing to clear. */
+imp_code scene_making_begin_numbers(scene_making *m, const scene_source *source, const char *type,
+                                    const imp_argument *arguments, size_t count, const place *at,
+                                    imp_error *error);
 
 /* Calls create; the caller then owns m->instance. `note` may be NULL. */
 imp_code scene_making_create(scene_making *m, const place *at, scene_build_note *note,

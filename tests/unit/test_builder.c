@@ -110,6 +110,31 @@ static void surface_refused(imp_argument argument, imp_code code, const char *me
     imp_builder_free(b);
 }
 
+/* Arguments that are all numbers take a way of their own, on which no object is made. */
+START_TEST(numbers_make_the_instance_that_an_object_makes)
+{
+    const double far[3] = {0.1, -0.0, -3e20};
+    const imp_argument numbers[] = {imp_argument_number("radius", 1),
+                                    imp_argument_list("center", far, 3)};
+    imp_builder *b = begin();
+    good(imp_builder_body(b, "a", NULL, &error));
+    good(imp_builder_surface(b, 0, "kit", numbers, 2, &error));
+    imp_scene *built = finish(b);
+    imp_scene *read = read_scene("{'bodies': [{'name': 'a', 'surfaces': ["
+                                 "{'type': 'kit', 'radius': 1, 'center': [0.1, -0.0, -3e20]}]}]}");
+    ck_assert_uint_eq(scene_bytes(built), scene_bytes(read));
+    shared_instance *x = surface_share(scene_surface(built, 0, 0));
+    shared_instance *y = surface_share(scene_surface(read, 0, 0));
+    ck_assert_str_eq(instance_label(x), instance_label(y));
+    ck_assert_str_eq(instance_label(x), "kit radius=1 center=0.1,-0,-3e+20");
+    ck_assert_uint_eq(x->given, y->given);
+    instance_release(x);
+    instance_release(y);
+    imp_scene_free(built);
+    imp_scene_free(read);
+}
+END_TEST
+
 START_TEST(errors_name_body_and_parameter)
 {
     const double bad[] = {1, 2, NAN}, none = 0;
@@ -272,7 +297,7 @@ START_TEST(time_left_is_the_papers_h)
 END_TEST
 
 SUITE_MAIN("builder", a_scene_built_is_the_scene_that_is_written, values_of_every_kind_are_taken,
-           errors_name_body_and_parameter, tables_and_names_that_cannot_be_are_refused,
-           calls_out_of_order_are_refused, a_builder_that_is_done_takes_nothing_more,
-           a_surface_of_another_scene_is_shared,
+           numbers_make_the_instance_that_an_object_makes, errors_name_body_and_parameter,
+           tables_and_names_that_cannot_be_are_refused, calls_out_of_order_are_refused,
+           a_builder_that_is_done_takes_nothing_more, a_surface_of_another_scene_is_shared,
            a_surface_of_a_type_that_the_registry_lacks_is_refused, time_left_is_the_papers_h)

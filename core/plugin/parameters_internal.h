@@ -1,0 +1,18 @@
+/* SPDX-FileCopyrightText: The Impinge authors
+ * SPDX-License-Identifier: Apache-2.0 */
+#ifndef CORE_PLUGIN_PARAMETERS_INTERNAL_H
+#define CORE_PLUGIN_PARAMETERS_INTERNAL_H
+
+#include "core/plugin/parameters.h"
+
+/* What parameters.c, which reads JSON, parameter_value.c, which reads one value of it, and
+ * parameter_numbers.c, which reads none, share. */
+
+/* Whether the row's kind and range allow the number. */
+bool parameter_is_allowed(const imp_parameter *row, double x);
+
+/* Reads the value of a parameter that is not given: its default, none, or an error at `at`. */
+imp_code parameters_read_absent(const imp_parameter *row, const place *at, parameter_values *values,
+                                imp_value *value, imp_error *error);
+
+#endif
