@@ -26,6 +26,7 @@ core_base = \
     core/base/file_text.c core/base/file_text.h \
     core/base/fp_mode.h \
     core/base/limit_watch.h \
+    core/base/json_text.c core/base/json_text.h \
     core/base/place.c core/base/place.h \
     core/base/rounding.h \
     core/base/sized.h \
@@ -214,8 +215,10 @@ core_survey = \
     core/survey/survey_answer.c \
     core/survey/survey_box.c \
     core/survey/survey_internal.h \
+    core/survey/survey_mark.c \
     core/survey/survey_measure.c \
-    core/survey/survey_pairs.c
+    core/survey/survey_pairs.c \
+    core/survey/survey_state.c
 
 core_reader = \
     core/reader/arguments.c core/reader/arguments.h \
@@ -223,7 +226,6 @@ core_reader = \
     core/reader/examine.c \
     core/reader/json_keys.c core/reader/json_keys.h \
     core/reader/instance_table.c core/reader/instance_table.h \
-    core/reader/json_text.c core/reader/json_text.h \
     core/reader/pipeline.c core/reader/pipeline.h \
     core/reader/pipeline_value.c core/reader/pipeline_value.h \
     core/reader/required_plugins.c core/reader/required_plugins.h \

@@ -125,8 +125,10 @@ tools_cli = \
     tools/cli/result.h \
     tools/cli/result_json.c \
     tools/cli/result_text.c \
+    tools/cli/run_options.c tools/cli/run_options.h \
     tools/cli/scene_info.c tools/cli/scene_info.h \
     tools/cli/survey.c tools/cli/survey.h \
+    tools/cli/survey_boxes.c tools/cli/survey_boxes.h \
     tools/cli/series.c tools/cli/series.h \
     tools/cli/standard_output.c tools/cli/standard_output.h \
     tools/cli/vec.h \

@@ -864,6 +864,8 @@ typedef struct imp_survey_options {
     uint64_t max_boxes;   /* boxes asked about; 0: no limit */
     imp_survey_sink sink; /* takes boxes as they are proved and, in the end, those left; NULL */
     void *sink_context;
+    const char *resume; /* go on from what imp_survey_save returned; NULL: from the whole box. It is
+                           read by imp_survey_new only */
 } imp_survey_options;
 
 /* Sets the defaults. The caller sets how->struct_size before. */
@@ -895,6 +897,14 @@ IMP_EXPORT imp_code imp_survey_step(imp_survey *survey, uint64_t boxes, imp_erro
  * async-signal-safe] */
 IMP_EXPORT void imp_survey_cancel(imp_survey *survey);
 
+/* Returns how far a survey has come, as one line of text, from which another goes on: of the same
+ * scene and options but for limits and the sink, on any machine. Its answer is then that of a
+ * survey that was not interrupted, bit for bit but for stats; boxes that the first one has told are
+ * not told again, but for those left. A limit that ends a query in the middle of a box has that box
+ * asked about again. Call it after imp_survey_step. The caller frees it by free(). NULL on
+ * error. */
+IMP_EXPORT char *imp_survey_save(const imp_survey *survey, imp_error *error);
+
 /* Fill *result, of a survey for a contact, or *answer, of one for a clearance. Indices are those of
  * the scene. The caller sets struct_size before. */
 IMP_EXPORT imp_code imp_survey_get_result(const imp_survey *survey, imp_result *result,
@@ -910,7 +920,7 @@ IMP_EXPORT bool imp_survey_values(const imp_survey *survey, double *values);
 typedef struct imp_survey_state {
     uint32_t struct_size;
     imp_reason reason;
-    uint64_t boxes, waiting; /* asked about; left */
+    uint64_t boxes, waiting; /* asked about, those before `resume` included; left */
     double proved;           /* share of all values and times that is proved, from 0 to 1: the mean
                                 over the pairs of bodies */
     double t_upper;          /* time of the contact that is known; INFINITY: none */

@@ -5,7 +5,7 @@
 #include <impinge/examine.h>
 
 #include "core/base/fp_mode.h"
-#include "core/reader/json_text.h"
+#include "core/base/json_text.h"
 #include "core/reader/pipeline.h"
 #include "core/reader/scene_build.h"
 

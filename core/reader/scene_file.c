@@ -4,11 +4,11 @@
 
 #include "core/base/file_text.h"
 #include "core/base/fp_mode.h"
+#include "core/base/json_text.h"
 #include "core/base/text.h"
 #include "core/plugin/json_describe.h"
 #include "core/plugin/parameters.h"
 #include "core/reader/json_keys.h"
-#include "core/reader/json_text.h"
 #include "core/reader/pipeline.h"
 #include "core/reader/required_plugins.h"
 #include "core/reader/scene_file.h"

@@ -14,7 +14,7 @@
 /* --- What is asked ---------------------------------------------------------------------------- */
 
 /* Bytes of the first versions. */
-#define HOW_FIRST sizeof(imp_survey_options)
+#define HOW_FIRST offsetof(imp_survey_options, resume)
 #define ASKED_FIRST offsetof(imp_clearance_options, decide)
 
 static const imp_survey_options usual = {.struct_size = (uint32_t)sizeof usual,
@@ -63,20 +63,20 @@ static imp_code check_asked(const imp_clearance_options *asked, imp_error *error
 
 /* --- Creation and destruction ----------------------------------------------------------------- */
 
-/* One block of numbers: ranges, the values of the incumbent, the box in question (survey_box.c),
- * and shifts. False: no memory. */
+/* One block of numbers: ranges, the values of the incumbent and of that marked, the box in question
+ * (survey_measure.c), and shifts. False: no memory. */
 static bool make_room(imp_survey *s)
 {
     const size_t n = scene_parameters_read(s->scene)->count;
-    double *block = calloc(11 * n + 1, sizeof *block);
+    double *block = calloc(10 * n + 1, sizeof *block);
     if (block == NULL) return false;
     s->count = n;
     s->lo = block;
     s->hi = block + n;
     s->best.values = block + 2 * n;
     for (int k = 0; k < 3; ++k) s->shift[k] = block + (3 + (size_t)k) * n;
-    s->at = block + 6 * n; /* 5 n numbers: middle, lo and hi of the box that is asked about, then
-                            lo and hi of the box that the sink is told */
+    s->at = block + 6 * n; /* 3 n numbers: middle, lo and hi of the box that is asked about */
+    s->mark.best.values = block + 9 * n;
     for (size_t k = 0; k < n; ++k) {
         s->lo[k] = scene_parameters_read(s->scene)->at[k].lo;
         s->hi[k] = scene_parameters_read(s->scene)->at[k].hi;
@@ -126,7 +126,9 @@ FP_APART static imp_code fill(imp_survey *s, imp_scene *scene, const imp_options
     set_aims(s);
     code = survey_find_pairs(s, error);
     if (code == IMP_SUCCESS) code = survey_add_roots(s, error);
-    return code == IMP_SUCCESS ? survey_choose_swept(s, error) : code;
+    if (code == IMP_SUCCESS) code = survey_choose_swept(s, error);
+    return code == IMP_SUCCESS && s->how.resume != NULL ? survey_load(s, s->how.resume, error)
+                                                        : code;
 }
 
 imp_survey *imp_survey_new(imp_scene *scene, const imp_options *options,
@@ -148,6 +150,8 @@ void imp_survey_free(imp_survey *s)
 {
     if (s == NULL) return;
     box_queue_clear(&s->queue);
+    survey_mark_drop(s);
+    survey_told_clear(s);
     free(s->pairs);
     free(s->extents);
     free(s->first);
@@ -180,19 +184,26 @@ static bool is_decided(const imp_survey *s)
 {
     const survey_box *first = box_queue_first(&s->queue);
     if (first == NULL) return true;
-    if (!s->is_distance) return first->key >= s->best.t;
+    if (!s->is_distance) return first->key >= s->best.t || (s->how.any && s->best.is_known);
     return first->key >= survey_distance_enough(s) || s->best.distance <= s->gamma;
 }
 
-/* Tells the sink which boxes are undecided. They stay in the queue: a later step may decide
- * them. */
-static void tell_rest(const imp_survey *s)
+/* Tells the sink which boxes are undecided: of one that was interrupted all that was undecided
+ * before. They stay in the queue: a later step may decide them. */
+static imp_code tell_rest(imp_survey *s, imp_error *error)
 {
+    survey_told **kept = s->told;
+    const size_t count = s->told_count, capacity = s->told_capacity;
+    s->told = NULL, s->told_count = 0;
     for (size_t k = 0; k < s->queue.count; ++k) {
-        const survey_box *box = s->queue.at[k];
+        const survey_box *box = survey_marked(s, s->queue.at[k]);
         survey_tell(s, box, s->is_distance ? s->options.t_start : box->key, s->options.t_end,
                     IMP_VERDICT_UNDECIDED, 0);
     }
+    const imp_code code = survey_flush(s, error);
+    survey_told_clear(s);
+    s->told = kept, s->told_count = count, s->told_capacity = capacity;
+    return code;
 }
 
 static void conclude(imp_survey *s)
@@ -205,7 +216,8 @@ static void conclude(imp_survey *s)
 FP_APART static imp_code step(imp_survey *s, uint64_t boxes, imp_error *error)
 {
     const uint64_t last = s->boxes + boxes;
-    imp_code code = IMP_SUCCESS;
+    survey_mark_drop(s); /* within a process what an interrupted query found out is used */
+    imp_code code = survey_flush(s, error);
     s->reason = IMP_REASON_RUNNING;
     while (code == IMP_SUCCESS && s->reason == IMP_REASON_RUNNING) {
         s->stats.seconds = survey_seconds(s);
@@ -223,8 +235,7 @@ FP_APART static imp_code step(imp_survey *s, uint64_t boxes, imp_error *error)
     }
     if (code == IMP_SUCCESS && s->reason == IMP_REASON_NONE) conclude(s);
     s->stats.seconds = survey_seconds(s);
-    if (code == IMP_SUCCESS) tell_rest(s);
-    return code;
+    return code == IMP_SUCCESS ? tell_rest(s, error) : code;
 }
 
 imp_code imp_survey_step(imp_survey *s, uint64_t boxes, imp_error *error)

@@ -156,7 +156,7 @@ imp_code imp_survey_get_state(const imp_survey *s, imp_survey_state *state, imp_
     fp_environment_leave(&environment);
     imp_survey_state own = {.struct_size = (uint32_t)sizeof own,
                             .reason = s->reason,
-                            .boxes = s->boxes,
+                            .boxes = s->boxes_before + s->boxes,
                             .waiting = s->queue.count,
                             .proved = proved,
                             .t_upper = s->best.t,

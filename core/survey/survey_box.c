@@ -177,25 +177,6 @@ static imp_code run_distance(imp_survey *s, imp_scene *scene, query_times times,
 
 /* --- What becomes of a box -------------------------------------------------------------------- */
 
-void survey_tell(const imp_survey *s, const survey_box *box, double t_start, double t_end,
-                 imp_verdict verdict, double lower)
-{
-    if (s->how.sink == NULL) return;
-    double *lo = s->at + 3 * s->count, *hi = lo + s->count;
-    const survey_pair *pair = &s->pairs[box->pair];
-    for (size_t j = 0; j < s->count; ++j) lo[j] = box->range[2 * j], hi[j] = box->range[2 * j + 1];
-    const imp_survey_box told = {.struct_size = (uint32_t)sizeof told,
-                                 .verdict = verdict,
-                                 .body = {pair->body[0], pair->body[1]},
-                                 .count = s->count,
-                                 .lo = lo,
-                                 .hi = hi,
-                                 .t_start = t_start,
-                                 .t_end = t_end,
-                                 .lower = lower};
-    s->how.sink(s->how.sink_context, &told);
-}
-
 /* Notes that nothing comes near in the box before t, of the parameter that is swept. */
 static void prove_swept(imp_survey *s, survey_box *box, double t)
 {
@@ -328,7 +309,7 @@ static imp_code ask_own(imp_survey *s, const survey_box *box, imp_scene *scene, 
 }
 
 /* Tells the sink about the times after a contact that is known: nobody asks about them. */
-static void tell_later(const imp_survey *s, const survey_box *box)
+static void tell_later(imp_survey *s, const survey_box *box)
 {
     if (is_swept(&s->pairs[box->pair]) || !(box->key < s->options.t_end)) return;
     survey_tell(s, box, box->key, s->options.t_end, IMP_VERDICT_UNDECIDED, 0);
@@ -465,10 +446,15 @@ static imp_code ask_distance(imp_survey *s, survey_box *box, box_rest *rest, imp
 imp_code survey_ask(imp_survey *s, survey_box *box, imp_error *error)
 {
     box_rest rest = BOX_OPEN;
+    imp_code code = survey_mark_take(s, box, error);
+    if (code != IMP_SUCCESS) return free(box), code;
     s->boxes += 1;
     s->key_asked = s->is_distance ? s->options.t_start : box->key;
-    const imp_code code =
-        s->is_distance ? ask_distance(s, box, &rest, error) : ask_contact(s, box, &rest, error);
+    code = s->is_distance ? ask_distance(s, box, &rest, error) : ask_contact(s, box, &rest, error);
+    if (!is_limit(s->reason)) {
+        survey_mark_drop(s);
+        if (code == IMP_SUCCESS) code = survey_flush(s, error);
+    }
     if (code != IMP_SUCCESS || rest != BOX_WAITING) return free(box), code;
     return box_queue_push(&s->queue, box) ? IMP_SUCCESS : error_set_memory(error);
 }

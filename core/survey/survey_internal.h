@@ -38,7 +38,7 @@
  *
  * survey.c steps, survey_box.c decides one box, survey_measure.c bounds how its
  * parameters shift bodies, survey_pairs.c finds which bodies which parameters
- * move, survey_answer.c reads. */
+ * move, survey_mark.c tells boxes, survey_state.c saves and loads, survey_answer.c reads. */
 
 #define SURVEY_ALL_BODIES SIZE_MAX
 
@@ -60,6 +60,19 @@ typedef struct survey_incumbent {
     imp_clearance nearest;
 } survey_incumbent;
 
+/* Where the survey stood before the box that a limit interrupted in a query of its own. What such a
+ * query has found out is kept for the answer, but a survey that goes on from a saved state
+ * (imp_survey_save) asks the box again, so that its answer is that of one that was not
+ * interrupted. */
+typedef struct survey_mark {
+    survey_box *box; /* owned; NULL: none is interrupted */
+    uint64_t boxes;
+    double proved, settled;
+    survey_incumbent best;
+} survey_mark;
+
+typedef struct survey_told survey_told; /* a box for the sink */
+
 struct imp_survey {
     imp_scene *scene;
     imp_options options;
@@ -69,8 +82,8 @@ struct imp_survey {
     imp_clearance_options asked;
     double gamma, gamma_clear; /* of the search for a contact */
     examined_times examined;
-    size_t count;          /* of parameters */
-    double *lo, *hi;       /* their ranges, one block with the incumbent's values and the view */
+    size_t count;    /* of parameters */
+    double *lo, *hi; /* their ranges, one block with the values of both incumbents, and the view */
     double *at, *shift[3]; /* of the box being asked about: its middle; shifts of both bodies and
                                   of one of their surfaces */
     size_t *first;         /* of each body, its first extent */
@@ -79,10 +92,15 @@ struct imp_survey {
     size_t pair_count, pair_capacity;
     box_queue queue;
     uint64_t made, boxes;
-    double key_asked; /* of the box being asked about */
+    uint64_t boxes_before; /* asked about by the surveys that this one goes on from */
+    double key_asked;      /* of the box being asked about */
     survey_incumbent best;
-    double settled; /* least distance proved of boxes that are done with; length */
-    double proved;  /* shares of all pairs together */
+    survey_mark mark;
+    survey_told **told; /* kept back until the box in question is done with */
+    size_t told_count, told_capacity;
+    bool told_failed; /* no memory for one */
+    double settled;   /* least distance proved of boxes that are done with; length */
+    double proved;    /* shares of all pairs together */
     imp_stats stats;
     imp_verdict verdict;
     imp_reason reason;
@@ -116,9 +134,22 @@ imp_code survey_add_roots(imp_survey *s, imp_error *error);
  * that ends the survey. */
 imp_code survey_ask(imp_survey *s, survey_box *box, imp_error *error);
 
-/* Tells the sink about a box over a part of time. */
-void survey_tell(const imp_survey *s, const survey_box *box, double t_start, double t_end,
+/* Marks where the survey stands before it asks about a box; forgets the mark. */
+imp_code survey_mark_take(imp_survey *s, const survey_box *box, imp_error *error);
+void survey_mark_drop(imp_survey *s);
+
+/* Returns the box as it was before it was interrupted, if it was, else itself. */
+const survey_box *survey_marked(const imp_survey *s, const survey_box *box);
+
+/* Keeps a box over a part of time for the sink. What is kept goes there by survey_flush. */
+void survey_tell(imp_survey *s, const survey_box *box, double t_start, double t_end,
                  imp_verdict verdict, double lower);
+
+imp_code survey_flush(imp_survey *s, imp_error *error);
+void survey_told_clear(imp_survey *s);
+
+/* Goes on from what imp_survey_save returned: the first boxes of pairs give way to those left. */
+imp_code survey_load(imp_survey *s, const char *text, imp_error *error);
 
 /* Returns the distance from which on a box needs no further search. */
 double survey_distance_enough(const imp_survey *s);

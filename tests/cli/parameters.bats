@@ -77,11 +77,81 @@ END
     arms 2.9 '0,0],[-0.1,0,0' >arms.json # their shafts come nearer
     run -0 "$IMPINGE" solve arms.json --gamma 0.05 --boxes boxes.jsonl --json
     json '.verdict == "clear"'
-    jq -es 'length > 1 and all(.[]; .bodies == ["one", "two"] and
+    jq -es '(.[0] | keys == ["options", "scene"]) and (.[-1] | keys == ["state"])' boxes.jsonl
+    jq -es '.[1:-1] | length > 1 and all(.[]; .bodies == ["one", "two"] and
         (.parameters | keys == ["a", "b"]) and (.verdict | IN("clear", "contact", "undecided")))' \
         boxes.jsonl
-    jq -es 'map((.time[1] - .time[0]) * (.parameters.a | .[1] - .[0]) *
+    jq -es '.[1:-1] | map((.time[1] - .time[0]) * (.parameters.a | .[1] - .[0]) *
         (.parameters.b | .[1] - .[0])) | add | . > 3.999 and . < 4.001' boxes.jsonl
+}
+
+# --- Going on ---------------------------------------------------------------------------------------
+
+# in_parts LIMIT COMMAND...: asks with --resume until a part is answered; then the answer and the
+# boxes are those of one run, but for its stats.
+in_parts() {
+    local limit=$1 parts=1 status
+    shift
+    "$@" --json --boxes whole.jsonl >whole.json || true
+    rm -f parts.jsonl
+    while [ "$parts" -lt 9 ]; do
+        status=0
+        # shellcheck disable=SC2086 # an option and its value
+        "$@" --json --resume parts.jsonl $limit >parts.json || status=$?
+        [ "$status" -eq 3 ] || break
+        parts=$((parts + 1))
+    done
+    echo "$parts parts"
+    [ "$parts" -gt 2 ]
+    cmp <(jq 'del(.stats)' whole.json) <(jq 'del(.stats)' parts.json)
+    cmp whole.jsonl parts.jsonl
+}
+
+@test "a run goes on from the boxes that another left, to the same answer and boxes" {
+    arms >arms.json
+    in_parts '--max-boxes 9' "$IMPINGE" solve arms.json --gamma 0.09
+    in_parts '--max-boxes 40' "$IMPINGE" clearance arms.json --require 0.095
+    in_parts '--max-boxes 30' "$IMPINGE" clearance arms.json --tolerance 0.1
+    arms 2.9 '0,0],[-0.3,0,0' >arms.json # their shafts come nearer: a contact in time
+    in_parts '--max-boxes 500' "$IMPINGE" solve arms.json --gamma 0.05
+}
+
+@test "a box that a limit interrupts is asked again, so that nothing changes" {
+    arms >arms.json
+    in_parts '--max-pairs 6000' "$IMPINGE" clearance arms.json --tolerance 0.1
+}
+
+@test "boxes of another scene, of other options or of no run are refused, and stay" {
+    arms >arms.json
+    run -3 "$IMPINGE" solve arms.json --gamma 0.09 --max-boxes 9 --resume boxes.jsonl
+    cp boxes.jsonl kept
+    fails 4 "boxes.jsonl: its answers were made with --gamma 0.09, this run has --gamma 0.08 (its first line)" \
+        "$IMPINGE" solve arms.json --gamma 0.08 --resume boxes.jsonl
+    fails 4 'made without --parameter, this run has --parameter a=0,1' \
+        "$IMPINGE" solve arms.json --gamma 0.09 --parameter a=0,1 --resume boxes.jsonl
+    fails 2 'of the same' "$IMPINGE" clearance arms.json --gamma 0.09 --resume boxes.jsonl
+    arms 2.8 >other.json
+    fails 4 'another scene' "$IMPINGE" solve other.json --gamma 0.09 --resume boxes.jsonl
+    fails 2 'give it without --boxes' \
+        "$IMPINGE" solve arms.json --gamma 0.09 --boxes x --resume boxes.jsonl
+    fails 2 'needs a scene in a file' "$IMPINGE" solve - --resume boxes.jsonl <arms.json
+    fails 2 'needs a file' "$IMPINGE" solve arms.json --resume -
+    cmp boxes.jsonl kept
+    fails 4 'its first line is not that of a file of boxes' "$IMPINGE" solve arms.json --resume other.json
+    head -n -1 kept >cut.jsonl
+    fails 4 'its last line, which tells where the run stood, is missing' \
+        "$IMPINGE" solve arms.json --gamma 0.09 --resume cut.jsonl
+    sed 's/"made":[0-9]*/"made":1/' kept >wrong.jsonl
+    fails 2 'does not tell where a survey stands' \
+        "$IMPINGE" solve arms.json --gamma 0.09 --resume wrong.jsonl
+    [ ! -e x ] && [ ! -e cut.jsonl.part ]
+}
+
+@test "boxes are no matter of a scene without parameters" {
+    scene >plain.json
+    run -0 --separate-stderr "$IMPINGE" solve plain.json --resume boxes.jsonl
+    [[ $stderr == *'warning: --resume does nothing: the scene has no parameters'* ]]
+    [ ! -e boxes.jsonl ]
 }
 
 # --- What does not go -------------------------------------------------------------------------------

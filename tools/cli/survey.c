@@ -12,10 +12,10 @@
 #include "tools/cli/clearance.h"
 #include "tools/cli/interrupt.h"
 #include "tools/cli/output.h"
-#include "tools/cli/output_file.h"
 #include "tools/cli/progress.h"
 #include "tools/cli/query.h"
 #include "tools/cli/result.h"
+#include "tools/cli/survey_boxes.h"
 #include "tools/cli/verbs.h"
 
 const option options_parameters[] = {
@@ -30,6 +30,10 @@ const option options_survey[] = {
      .kind = OPTION_TEXT,
      .argument = "FILE",
      .help = "write the boxes of parameter values that are proved, and those left, a line each"},
+    {.name = "resume",
+     .kind = OPTION_TEXT,
+     .argument = "FILE",
+     .help = "go on from the boxes of FILE, which --boxes or --resume of an earlier run wrote"},
     {.name = "max-boxes",
      .kind = OPTION_COUNT,
      .argument = "N",
@@ -82,7 +86,12 @@ bool survey_is_needed(const imp_scene *scene, const arguments *args)
             remark(args->verb->name,
                    "warning: no surface or map has the parameter '%s' as its clock",
                    message_shown(info.name).text);
-    return imp_scene_parameter_count(scene) > 0;
+    if (imp_scene_parameter_count(scene) > 0) return true;
+    for (const option *row = options_survey; row->name != NULL; ++row)
+        if (arguments_option(args, row->name) != NULL)
+            remark(args->verb->name, "warning: --%s does nothing: the scene has no parameters",
+                   row->name);
+    return false;
 }
 
 exit_status survey_check(const arguments *args)
@@ -101,56 +110,6 @@ exit_status survey_check(const arguments *args)
     return EXIT_ANSWERED;
 }
 
-/* --- JSON ------------------------------------------------------------------------------------- */
-
-static json_t *ranges_json(const imp_scene *scene, const double *lo, const double *hi)
-{
-    imp_scene_parameter_info info;
-    json_t *object = json_object();
-    for (size_t k = 0; imp_scene_parameter(scene, k, &info); ++k)
-        if (json_object_set_new(object, info.name, result_times_json(lo[k], hi[k])) != 0)
-            return json_decref(object), NULL;
-    return object;
-}
-
-static json_t *values_json(const imp_scene *scene, const double *values)
-{
-    imp_scene_parameter_info info;
-    json_t *object = json_object();
-    for (size_t k = 0; imp_scene_parameter(scene, k, &info); ++k)
-        if (json_object_set_new(object, info.name, output_json_number(values[k])) != 0)
-            return json_decref(object), NULL;
-    return object;
-}
-
-static json_t *bodies_json(const imp_scene *scene, const size_t body[2])
-{
-    if (body[0] == SIZE_MAX) return json_null();
-    return json_pack("[o,o]", output_json_text(imp_scene_body_name(scene, body[0])),
-                     output_json_text(imp_scene_body_name(scene, body[1])));
-}
-
-/* One line of --boxes. */
-typedef struct box_file {
-    const imp_scene *scene;
-    output_file out;
-    bool failed;
-} box_file;
-
-static void write_box(void *context, const imp_survey_box *box)
-{
-    box_file *to = context;
-    json_t *line = json_pack(
-        "{s:o, s:o, s:o, s:s, s:o}", "parameters", ranges_json(to->scene, box->lo, box->hi), "time",
-        result_times_json(box->t_start, box->t_end), "lower",
-        box->verdict == IMP_VERDICT_CLEAR ? output_json_number(box->lower) : json_null(), "verdict",
-        result_verdict_name(box->verdict), "bodies", bodies_json(to->scene, box->body));
-    char *text = output_json_line(line);
-    to->failed = to->failed || text == NULL;
-    if (text != NULL) fprintf(to->out.file, "%s\n", text);
-    free(text);
-}
-
 /* --- An answer -------------------------------------------------------------------------------- */
 
 typedef struct survey_run {
@@ -161,6 +120,16 @@ typedef struct survey_run {
     double *values, *lo, *hi; /* one block */
     bool has_values;
 } survey_run;
+
+static json_t *values_json(const imp_scene *scene, const double *values)
+{
+    imp_scene_parameter_info info;
+    json_t *object = json_object();
+    for (size_t k = 0; imp_scene_parameter(scene, k, &info); ++k)
+        if (json_object_set_new(object, info.name, output_json_number(values[k])) != 0)
+            return json_decref(object), NULL;
+    return object;
+}
 
 /* What stands beside an answer as JSON. `known`: the values are those of the answer. */
 static int set_state(json_t *object, const survey_run *r, bool known, bool undecided)
@@ -175,9 +144,9 @@ static int set_state(json_t *object, const survey_run *r, bool known, bool undec
     if (r->state.has_worst)
         failed |= json_object_set_new(
             object, "worst",
-            json_pack("{s:o, s:o, s:o}", "parameters", ranges_json(r->scene, r->lo, r->hi), "time",
-                      result_times_json(r->state.worst_time[0], r->state.worst_time[1]), "bodies",
-                      bodies_json(r->scene, r->state.worst_body)));
+            json_pack("{s:o, s:o, s:o}", "parameters", survey_ranges_json(r->scene, r->lo, r->hi),
+                      "time", result_times_json(r->state.worst_time[0], r->state.worst_time[1]),
+                      "bodies", survey_bodies_json(r->scene, r->state.worst_body)));
     if (r->has_values && !known)
         failed |=
             json_object_set_new(object, "known",
@@ -295,24 +264,13 @@ static exit_status run(imp_scene *scene, const imp_clearance_options *asked, con
 {
     survey_run r = {.scene = scene, .args = args};
     imp_survey_options how = imp_survey_options_default();
-    const option_value *path = arguments_option(args, "boxes");
-    box_file boxes = {.scene = scene};
+    survey_boxes boxes;
     exit_status status = survey_check(args);
     if (status != EXIT_ANSWERED) return status;
     how.max_boxes = arguments_count(args, "max-boxes", 0);
-    if (path != NULL) {
-        status = output_file_begin(&boxes.out, path->text, args->verb->name);
-        if (status != EXIT_ANSWERED) return status;
-        how.sink = write_box;
-        how.sink_context = &boxes;
-    }
-    status = run_to_end(&r, &how, asked);
-    if (path != NULL) {
-        const exit_status written =
-            output_file_end(&boxes.out, status == EXIT_ANSWERED && !boxes.failed);
-        if (status == EXIT_ANSWERED) status = written;
-        if (boxes.failed && status == EXIT_ANSWERED) status = complain_of_memory(args->verb->name);
-    }
+    status = survey_boxes_begin(&boxes, scene, &how, args);
+    if (status == EXIT_ANSWERED) status = run_to_end(&r, &how, asked);
+    status = survey_boxes_end(&boxes, r.survey, status);
     if (status == EXIT_ANSWERED) status = asked != NULL ? tell_clearance(&r) : tell_contact(&r);
     imp_survey_free(r.survey);
     free(r.values);

@@ -10,7 +10,7 @@
 /* Scenes with parameters: questions about all their values (imp_survey). */
 
 extern const option options_parameters[]; /* parameter: every verb that reads one scene */
-extern const option options_survey[];     /* boxes, max-boxes: solve, pair, clearance */
+extern const option options_survey[];     /* boxes, resume, max-boxes: solve, pair, clearance */
 
 /* Whether the scene has parameters, which may be NULL. Warns of those that nobody follows. */
 bool survey_is_needed(const imp_scene *scene, const arguments *args);

@@ -194,6 +194,7 @@ class SurveyOptions(c.Structure):
         ("max_boxes", c.c_uint64),
         ("sink", c.c_void_p),
         ("sink_context", c.c_void_p),
+        ("resume", c.c_char_p),
     ]
 
 

@@ -2,7 +2,7 @@
  * SPDX-License-Identifier: Apache-2.0 */
 #include <config.h>
 
-#include "core/reader/json_text.h"
+#include "core/base/json_text.h"
 
 #include <stdlib.h>
 

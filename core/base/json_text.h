@@ -1,7 +1,7 @@
 /* SPDX-FileCopyrightText: The Impinge authors
  * SPDX-License-Identifier: Apache-2.0 */
-#ifndef CORE_READER_JSON_TEXT_H
-#define CORE_READER_JSON_TEXT_H
+#ifndef CORE_BASE_JSON_TEXT_H
+#define CORE_BASE_JSON_TEXT_H
 
 #include <jansson.h>
 
