@@ -16,7 +16,9 @@ tools_libproof_la_SOURCES = \
     tools/proof/ld_ends.h \
     tools/proof/ld_interval.c tools/proof/ld_interval.h \
     tools/proof/polynomial.c tools/proof/polynomial.h \
-    tools/proof/reader.c \
+    tools/proof/reader.c tools/proof/reader_internal.h \
+    tools/proof/reader_names.c \
+    tools/proof/reader_part.c \
     tools/proof/steps.h \
     tools/proof/view.c tools/proof/view.h
 
@@ -60,6 +62,8 @@ tools_check = \
     tools/check/state.c tools/check/state.h \
     tools/check/stated_formula.c tools/check/stated_formula.h \
     tools/check/subject.c tools/check/subject.h \
+    tools/check/subject_domain.c \
+    tools/check/subject_text.c \
     tools/check/table.c tools/check/table.h \
     tools/check/values.c tools/check/values.h \
     tools/check/verb_check.c
@@ -96,6 +100,7 @@ tools_cli = \
     tools/cli/clearance.h \
     tools/cli/clearance_each.c \
     tools/cli/clearance_json.c \
+    tools/cli/clearance_measure.c tools/cli/clearance_measure.h \
     tools/cli/clearance_table.c \
     tools/cli/clearance_text.c \
     tools/cli/command_line.c tools/cli/command_line.h \
@@ -259,7 +264,9 @@ tools_libverify_la_SOURCES = \
     tools/proof/jet.c tools/proof/jet.h \
     tools/proof/jet_functions.c \
     tools/proof/ld_ends.h tools/proof/ld_interval.h \
-    tools/proof/reader.c \
+    tools/proof/reader.c tools/proof/reader_internal.h \
+    tools/proof/reader_names.c \
+    tools/proof/reader_part.c \
     tools/proof/steps.h \
     tools/verify/apart.c tools/verify/apart.h \
     tools/verify/enclose.c tools/verify/enclose.h \
