@@ -59,7 +59,7 @@ static void bend_of(const imp_model model[3], const imp_region *r, double bend[3
 
 static imp_code fault(const surface *s, imp_status status, imp_error *error)
 {
-    surface_fault(s, error, ": %s", surface_status_told(s, status).text);
+    surface_fault(s, error, ": %s", surface_status_message(s, status).text);
     return surface_set_code(status, error);
 }
 

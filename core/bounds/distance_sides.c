@@ -16,7 +16,7 @@ distance_outcome distance_outcome_none(const time_window *window)
 
 static imp_code fault_of(const surface *s, imp_status status, imp_error *error)
 {
-    surface_fault(s, error, ": %s", surface_status_told(s, status).text);
+    surface_fault(s, error, ": %s", surface_status_message(s, status).text);
     return surface_set_code(status, error);
 }
 

@@ -40,7 +40,7 @@ static imp_code count_still_maps(candidate *c, const node *root, imp_error *erro
     const imp_status status = surface_still_maps(s, &root->region, &c->still_maps);
     if (status == IMP_STATUS_OK) return IMP_SUCCESS;
     surface_fault(s, error, "over t [%.17g, %.17g]: %s", root->region.lo[PARAMETER_T],
-                  root->region.hi[PARAMETER_T], surface_status_told(s, status).text);
+                  root->region.hi[PARAMETER_T], surface_status_message(s, status).text);
     return surface_set_code(status, error);
 }
 

@@ -144,7 +144,7 @@ static imp_code find_slip(collection *all, candidate *const side[2], time_window
     int asked = 1;
     const imp_status status = surface_pair_slip(s, bare, &all_times, times->lo, slip, &asked);
     if (status == IMP_STATUS_OK) return IMP_SUCCESS;
-    const surface_told what = surface_status_told(s[asked], status);
+    const surface_message what = surface_status_message(s[asked], status);
     if (status == SURFACE_BAD_SYMMETRY)
         surface_fault(s[asked], error, ": %s", what.text);
     else

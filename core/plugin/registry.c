@@ -163,10 +163,10 @@ bool imp_registry_type(const imp_registry *registry, size_t index, imp_type_info
     return true;
 }
 
-static bool tell(const remarks *told, size_t index, imp_plugin_refusal *out)
+static bool tell(const remarks *list, size_t index, imp_plugin_refusal *out)
 {
-    if (out == NULL || index >= told->count) return false;
-    *out = (imp_plugin_refusal){told->all[index].file, told->all[index].text};
+    if (out == NULL || index >= list->count) return false;
+    *out = (imp_plugin_refusal){list->all[index].file, list->all[index].text};
     return true;
 }
 
@@ -209,13 +209,13 @@ static void free_plugin(loaded_plugin *plugin)
     free(plugin);
 }
 
-static void free_remarks(remarks *told)
+static void free_remarks(remarks *list)
 {
-    for (size_t i = 0; i < told->count; ++i) {
-        free(told->all[i].file);
-        free(told->all[i].text);
+    for (size_t i = 0; i < list->count; ++i) {
+        free(list->all[i].file);
+        free(list->all[i].text);
     }
-    free(told->all);
+    free(list->all);
 }
 
 void imp_registry_free(imp_registry *r)

@@ -21,12 +21,12 @@
 
 /* --- Filling. Each returns false only when memory ran out. ------------------------------------ */
 
-static bool add_remark(remarks *told, const char *file, const char *text)
+static bool add_remark(remarks *list, const char *file, const char *text)
 {
-    remark *grown = array_reserve(told->all, told->count, &told->capacity, sizeof *grown);
+    remark *grown = array_reserve(list->all, list->count, &list->capacity, sizeof *grown);
     if (grown == NULL) return false;
-    told->all = grown;
-    remark *fresh = &told->all[told->count++];
+    list->all = grown;
+    remark *fresh = &list->all[list->count++];
     *fresh = (remark){strdup(file), strdup(text)};
     return fresh->file != NULL && fresh->text != NULL;
 }

@@ -79,7 +79,7 @@ static imp_code put_formula(file *f, const surface *s, size_t stage, imp_error *
     char *text;
     const imp_status status = surface_formula(s, stage, &text);
     if (status != IMP_STATUS_OK) {
-        surface_fault(s, error, ": %s", surface_status_told(s, status).text);
+        surface_fault(s, error, ": %s", surface_status_message(s, status).text);
         return surface_set_code(status, error);
     }
     for (char *at = text; at != NULL && *at != '\0'; ++at)

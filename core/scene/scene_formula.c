@@ -50,7 +50,7 @@ FP_APART static imp_code formula_of(const imp_scene *scene, imp_place at, size_t
     const surface *s = piece_at(scene, at);
     const imp_status status = surface_formula(s, stage, text);
     if (status == IMP_STATUS_OK) return IMP_SUCCESS;
-    surface_fault(s, why, ": %s", surface_status_told(s, status).text);
+    surface_fault(s, why, ": %s", surface_status_message(s, status).text);
     return surface_set_code(status, why);
 }
 

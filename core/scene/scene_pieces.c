@@ -33,7 +33,7 @@ static imp_code refusal(const surface *s, imp_status status, imp_error *why)
         s, why, ": %s",
         status == IMP_STATUS_DOMAIN
             ? "is undefined there, or too large for a double, though that lies in its domain"
-            : surface_status_told(s, status).text);
+            : surface_status_message(s, status).text);
     if (status != IMP_STATUS_DOMAIN) return surface_set_code(status, why);
     if (why != NULL) why->code = IMP_ERROR_USAGE;
     return IMP_ERROR_USAGE;

@@ -104,7 +104,7 @@ static imp_code include_surface(const inside_search *s, size_t body, size_t inde
         status = surface_include(one, &region, model);
     }
     if (status == IMP_STATUS_OK || status == IMP_STATUS_UNBOUNDED) return IMP_SUCCESS;
-    surface_fault(whole, error, "at t = %.17g: %s", t, surface_status_told(whole, status).text);
+    surface_fault(whole, error, "at t = %.17g: %s", t, surface_status_message(whole, status).text);
     return surface_set_code(status, error);
 }
 

@@ -33,7 +33,7 @@ imp_code patch_eval(const patch *p, double t, size_t n, const double (*uv)[2], v
     const imp_status status = surface_eval(p->surface, n, at, found, errors != NULL ? off : NULL);
     if (status != IMP_STATUS_OK) {
         surface_fault(p->surface, error, "at t = %.17g: %s", t,
-                      surface_status_told(p->surface, status).text);
+                      surface_status_message(p->surface, status).text);
         return surface_set_code(status, error);
     }
     for (size_t k = 0; k < n; ++k) x[k] = vec3_from(found + 3 * k);

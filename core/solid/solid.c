@@ -53,7 +53,7 @@ imp_code solid_include(const solid *s, const patch *p, const imp_region *region,
     const imp_status status = surface_include(p->surface, region, model);
     if (status != IMP_STATUS_OK && status != IMP_STATUS_UNBOUNDED) {
         surface_fault(p->surface, error, "at t = %.17g: %s", s->patches.t,
-                      surface_status_told(p->surface, status).text);
+                      surface_status_message(p->surface, status).text);
         return surface_set_code(status, error);
     }
     return IMP_SUCCESS;

@@ -57,7 +57,7 @@ static imp_code include(const part *w, const imp_region *region, imp_model model
     if (status == IMP_STATUS_OK || status == IMP_STATUS_UNBOUNDED) return IMP_SUCCESS;
     surface_fault(s, w->error, "over u [%.17g, %.17g], v [%.17g, %.17g], t = %.17g: %s",
                   region->lo[0], region->hi[0], region->lo[1], region->hi[1], w->view->t,
-                  surface_status_told(s, status).text);
+                  surface_status_message(s, status).text);
     return surface_set_code(status, w->error);
 }
 

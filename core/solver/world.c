@@ -15,7 +15,7 @@ static const surface *piece_of(const imp_scene *scene, const imp_side *at)
 
 static imp_code fault(const surface *s, imp_status status, double t, imp_error *error)
 {
-    surface_fault(s, error, "at t = %.17g: %s", t, surface_status_told(s, status).text);
+    surface_fault(s, error, "at t = %.17g: %s", t, surface_status_message(s, status).text);
     return surface_set_code(status, error);
 }
 
@@ -32,16 +32,16 @@ static double arrow_length(const vec3 *from, const double to[3])
 
 /* Maps both ends of an arrow along the normal. */
 static imp_code turn_normal(const surface *s, size_t maps, const witness *found, double t,
-                            world_witness *told, imp_error *error)
+                            world_witness *in_world, imp_error *error)
 {
     vec3 from = found->point[0];
-    const double length = arrow_length(&from, told->side[0].point);
+    const double length = arrow_length(&from, in_world->side[0].point);
     vec3 to = vec3_sub(from, vec3_scale(found->normal, -length));
     imp_status status = surface_move_outward(s, maps, t, from.x);
     if (status == IMP_STATUS_OK) status = surface_move_outward(s, maps, t, to.x);
     if (status != IMP_STATUS_OK) return fault(s, status, t, error);
     const vec3 image = vec3_sub(to, from);
-    memcpy(told->normal, vec3_scale(image, 1 / vec3_norm(image)).x, sizeof told->normal);
+    memcpy(in_world->normal, vec3_scale(image, 1 / vec3_norm(image)).x, sizeof in_world->normal);
     return IMP_SUCCESS;
 }
 
@@ -67,20 +67,20 @@ static double distance_of(const imp_side side[2])
 }
 
 imp_code world_witness_of(const imp_scene *scene, const candidate_pair *both, const witness *found,
-                          double t, double most, world_witness *told, imp_error *error)
+                          double t, double most, world_witness *in_world, imp_error *error)
 {
     for (int side = 0; side < 2; ++side) {
         const imp_code code =
-            place_side(scene, both->side[side], found, side, t, &told->side[side], error);
+            place_side(scene, both->side[side], found, side, t, &in_world->side[side], error);
         if (code != IMP_SUCCESS) return code;
     }
-    told->gap = found->gap;
-    memcpy(told->normal, found->normal.x, sizeof told->normal);
+    in_world->gap = found->gap;
+    memcpy(in_world->normal, found->normal.x, sizeof in_world->normal);
     const size_t left_out = both->side[0]->left_out;
     if (left_out == 0) return IMP_SUCCESS;
-    const double gap = distance_of(told->side);
-    told->gap = gap <= most ? gap : found->gap_upper;
+    const double gap = distance_of(in_world->side);
+    in_world->gap = gap <= most ? gap : found->gap_upper;
     if (!found->has_normal) return IMP_SUCCESS;
-    const surface *s = piece_of(scene, &told->side[0]);
-    return turn_normal(s, surface_map_count(s) - left_out, found, t, told, error);
+    const surface *s = piece_of(scene, &in_world->side[0]);
+    return turn_normal(s, surface_map_count(s) - left_out, found, t, in_world, error);
 }

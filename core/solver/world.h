@@ -23,6 +23,6 @@ typedef struct world_witness {
 
 /* IMP_ERROR_PLUGIN: a map that the search left out fails at time t. */
 imp_code world_witness_of(const imp_scene *scene, const candidate_pair *both, const witness *found,
-                          double t, double most, world_witness *told, imp_error *error);
+                          double t, double most, world_witness *in_world, imp_error *error);
 
 #endif

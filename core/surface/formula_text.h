@@ -13,7 +13,7 @@
 
 /* Returns in *text the formula of instance k of the surface (surface_origin); for a piece, its own.
  * It is NULL if there is none; the caller frees it by free(). IMP_STATUS_INTERNAL: no memory, or
- * the callback returned it; another status is a breach of the ABI (surface_status_told). */
+ * the callback returned it; another status is a breach of the ABI (surface_status_message). */
 imp_status surface_formula(const surface *s, size_t k, char **text);
 
 #endif

@@ -313,21 +313,21 @@ static bool is_of_any_callback(imp_status status)
     return status == SURFACE_CRASHED || status == SURFACE_HUNG || status == SURFACE_CHANGED_MODE;
 }
 
-static surface_told told_of_last(imp_status status, bool named)
+static surface_message message_of_last(imp_status status, bool named)
 {
-    surface_told told;
+    surface_message message;
     const char *callback, *type = active_callback_last(&callback);
-    snprintf(told.text, sizeof told.text, "%s", surface_status_text(status));
+    snprintf(message.text, sizeof message.text, "%s", surface_status_text(status));
     if (type != NULL && (named || is_of_any_callback(status)))
-        text_append(told.text, sizeof told.text, " (%s of '%s')", callback, type);
-    return told;
+        text_append(message.text, sizeof message.text, " (%s of '%s')", callback, type);
+    return message;
 }
 
-surface_told surface_status_of_last(imp_status status) { return told_of_last(status, false); }
+surface_message surface_status_of_last(imp_status status) { return message_of_last(status, false); }
 
-surface_told surface_status_told(const surface *s, imp_status status)
+surface_message surface_status_message(const surface *s, imp_status status)
 {
-    return told_of_last(status, s->map_count > 0);
+    return message_of_last(status, s->map_count > 0);
 }
 
 imp_code surface_set_code(imp_status status, imp_error *error)

@@ -103,13 +103,13 @@ const char *surface_status_text(imp_status status);
 /* The text for the status that a callback of this thread returned last. If surface_status_text does
  * not say which callback it was, the text ends with its name: "... (rate of 'twist')". Get it
  * before any other callback is called. */
-typedef struct surface_told {
+typedef struct surface_message {
     char text[400];
-} surface_told;
-surface_told surface_status_of_last(imp_status status);
+} surface_message;
+surface_message surface_status_of_last(imp_status status);
 
 /* Returns the text for a status that a function of this surface returned. */
-surface_told surface_status_told(const surface *s, imp_status status);
+surface_message surface_status_message(const surface *s, imp_status status);
 
 /* Replaces the code of an error by that of the status that caused it, and returns it:
  * IMP_ERROR_USAGE for SURFACE_FORKED, IMP_ERROR_MEMORY for SURFACE_NO_PROCESS, else

@@ -52,7 +52,7 @@ static imp_code measure_body(imp_survey *s, size_t body, size_t left_out, const 
         const imp_status status =
             surface_shift_upper(of, &s->extents[s->first[body] + k], left_out, values, one, &image);
         if (status != IMP_STATUS_OK) {
-            surface_fault(of, error, ": %s", surface_status_told(of, status).text);
+            surface_fault(of, error, ": %s", surface_status_message(of, status).text);
             return surface_set_code(status, error);
         }
         join_image(all, &image);

@@ -107,7 +107,7 @@ static imp_code find_extents(imp_survey *s, double t_start, double t_end, imp_er
             const surface *of = scene_surface(s->scene, b, k);
             const imp_status status = surface_extent_find(of, &whole, &s->extents[s->first[b] + k]);
             if (status == IMP_STATUS_OK) continue;
-            surface_fault(of, error, ": %s", surface_status_told(of, status).text);
+            surface_fault(of, error, ": %s", surface_status_message(of, status).text);
             return surface_set_code(status, error);
         }
     return IMP_SUCCESS;

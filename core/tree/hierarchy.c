@@ -72,7 +72,7 @@ static imp_code take_piece(const hierarchy *h, const surface *s, size_t k, clust
     const imp_status status = surface_include_bare(piece, &region, model);
     if (status != IMP_STATUS_OK && status != IMP_STATUS_UNBOUNDED) {
         surface_fault(piece, error, "over its domain, t [%.17g, %.17g]: %s", h->lo, h->hi,
-                      surface_status_told(piece, status).text);
+                      surface_status_message(piece, status).text);
         return surface_set_code(status, error);
     }
     for (int i = 0; i < 3; ++i) bound_piece(b, i, &model[i]);

@@ -203,7 +203,7 @@ imp_code node_unbounded_fault(const tree *t, const node *n, imp_error *error)
     const imp_status status = surface_eval(n->surface, 1, p, x, NULL);
     if (status != IMP_STATUS_OK)
         return surface_fault(n->surface, error, "at u = %.17g, v = %.17g, t = %.17g: %s", p[0],
-                             p[1], p[2], surface_status_told(n->surface, status).text);
+                             p[1], p[2], surface_status_message(n->surface, status).text);
     return node_fault(
         n,
         t->plan.kind == TREE_MODELS

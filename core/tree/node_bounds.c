@@ -20,7 +20,7 @@ imp_code node_fault(const node *n, const char *what, imp_error *error)
 
 imp_code node_status_fault(const node *n, imp_status status, imp_error *error)
 {
-    node_fault(n, surface_status_told(n->surface, status).text, error);
+    node_fault(n, surface_status_message(n->surface, status).text, error);
     return surface_set_code(status, error);
 }
 

@@ -95,7 +95,7 @@ static imp_code span_fill(span *s, const node *n, imp_error *error)
     const imp_status status = surface_pose(n->surface, &n->region, &given);
     if (status != IMP_STATUS_OK && status != IMP_STATUS_UNBOUNDED) {
         surface_fault(n->surface, error, "over t [%.17g, %.17g]: %s", n->region.lo[2],
-                      n->region.hi[2], surface_status_told(n->surface, status).text);
+                      n->region.hi[2], surface_status_message(n->surface, status).text);
         return surface_set_code(status, error);
     }
     s->is_known = status == IMP_STATUS_OK;

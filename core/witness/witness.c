@@ -74,7 +74,7 @@ static imp_code point_fault(const surface *s, const double p[3], const char *wha
 static imp_code status_fault(const surface *s, imp_status status, const double p[3],
                              imp_error *error)
 {
-    point_fault(s, p, surface_status_told(s, status).text, error);
+    point_fault(s, p, surface_status_message(s, status).text, error);
     return surface_set_code(status, error);
 }
 

@@ -22,7 +22,7 @@ static struct {
     uint64_t before, total;
     double since; /* seconds */
     const char *noun;
-    atomic_ullong done, told;
+    atomic_ullong done, reported;
 } count;
 
 void progress_begin(void) { begun = clock_seconds(); }
@@ -116,7 +116,7 @@ static void print_search(double seconds, const imp_progress *p)
 static void print_count(double seconds, uint64_t done, double rate, double left)
 {
     const double total = count.total > 0 ? (double)count.total : NAN;
-    atomic_store(&count.told, done + 1);
+    atomic_store(&count.reported, done + 1);
     fprintf(stderr,
             "{\"seconds\":%.3f,\"of\":\"%s\",\"done\":%ju,\"total\":%s,\"rate\":%s,\"left\":%s}\n",
             seconds, count.noun, (uintmax_t)done, json_number(total).text, json_number(rate).text,
@@ -180,7 +180,7 @@ void progress_wipe(void)
 void progress_end(void)
 {
     const uint64_t done = atomic_load(&count.done);
-    if (mode == PROGRESS_JSON && count.noun != NULL && atomic_load(&count.told) != done + 1)
+    if (mode == PROGRESS_JSON && count.noun != NULL && atomic_load(&count.reported) != done + 1)
         show_count(progress_seconds(), done);
     progress_wipe();
 }

@@ -13,12 +13,12 @@
 #include "tools/cli/verbs.h"
 
 /* What the handler says: there is one alarm in a process. */
-static char told[256];
+static char message[256];
 
 static void end_reading(int signal)
 {
     (void)signal;
-    crash_end_with(told, EXIT_UNDECIDED);
+    crash_end_with(message, EXIT_UNDECIDED);
 }
 
 static void set_alarm(double seconds)
@@ -33,7 +33,7 @@ void reading_limit_begin(const arguments *args)
     enum { LONGEST = 1000000000 }; /* seconds; longer limits set no alarm */
     const double limit = arguments_number(args, "max-seconds", 0);
     if (!(limit > 0 && limit < LONGEST)) return;
-    snprintf(told, sizeof told,
+    snprintf(message, sizeof message,
              "%s: --max-seconds %g was over while the scene was read; allow more (0: no limit)",
              args->verb->name, limit);
     const struct sigaction action = {.sa_handler = end_reading};
