@@ -151,7 +151,6 @@ static kept_instance *find(kept_instances *k, const kept_key *key)
 static kept_instance take_out(kept_instances *k, size_t i)
 {
     const kept_instance one = k->at[i];
-    one.made->is_kept = false;
     k->bytes -= instance_bytes(one.made);
     k->at[i] = k->at[--k->count];
     return one;
@@ -201,7 +200,6 @@ void kept_instances_add(kept_instances *k, kept_key *key, const kept_key *now,
     if (bytes > KEPT_BYTES_MAX || pthread_mutex_trylock(&k->lock) != 0) return;
     if (find(k, key) == NULL) { /* no other thread was faster */
         while (k->count > 0 && is_full(k, bytes)) out[out_count++] = take_out(k, oldest_of(k));
-        made->is_kept = true;
         k->bytes += bytes;
         k->at[k->count++] = (kept_instance){*key, instance_hold(made), k->lookups};
         *key = (kept_key){NULL, 0, 0};

@@ -113,6 +113,37 @@ imp_code scene_add_surface(imp_scene *scene, size_t index, surface *s)
 
 /* --- Memory ----------------------------------------------------------------------------------- */
 
+static int compare_addresses(const void *x, const void *y)
+{
+    const uintptr_t a = *(const uintptr_t *)x, b = *(const uintptr_t *)y;
+    return (a > b) - (a < b);
+}
+
+/* Each instance counts once, however many surfaces share it, and in each of the scenes that do: so
+ * the sum does not depend on which other scenes there are. */
+static imp_code sum_instances(const imp_scene *scene, uint64_t *bytes)
+{
+    uintptr_t *list = NULL;
+    size_t count = 0, capacity = 0;
+    for (size_t b = 0; b < scene->count; ++b)
+        for (size_t k = 0; k < scene->bodies[b].count; ++k) {
+            const surface *s = scene->bodies[b].members[k].surface;
+            for (size_t stage = 0; stage <= surface_map_count(s); ++stage) {
+                uintptr_t *grown = array_reserve(list, count, &capacity, sizeof *grown);
+                if (grown == NULL) return free(list), IMP_ERROR_MEMORY;
+                list = grown;
+                list[count++] = (uintptr_t)surface_origin(s, stage);
+            }
+        }
+    if (count > 0) qsort(list, count, sizeof *list, compare_addresses);
+    *bytes = 0;
+    for (size_t k = 0; k < count; ++k)
+        if (k == 0 || list[k] != list[k - 1])
+            *bytes += instance_bytes((const shared_instance *)list[k]);
+    free(list);
+    return IMP_SUCCESS;
+}
+
 static uint64_t sum_of_bytes(const imp_scene *scene)
 {
     uint64_t bytes = sizeof *scene + scene->capacity * sizeof *scene->bodies +
@@ -150,7 +181,9 @@ imp_code scene_complete(imp_scene *scene)
 {
     scene_settings *set = &scene->settings;
     double time[2];
-    scene->bytes = sum_of_bytes(scene);
+    uint64_t of_instances;
+    if (sum_instances(scene, &of_instances) != IMP_SUCCESS) return IMP_ERROR_MEMORY;
+    scene->bytes = sum_of_bytes(scene) + of_instances;
     note_times(scene);
     if (!note_remarks(scene)) return IMP_ERROR_MEMORY;
     if (!isnan(set->t_start) || default_times(scene, time, NULL) != IMP_SUCCESS) return IMP_SUCCESS;

@@ -44,7 +44,7 @@ struct imp_scene {
     key_pairs ignored;
     scene_settings settings;
     scene_parameters parameters;
-    uint64_t bytes;      /* 0: not summed up yet */
+    uint64_t bytes;      /* 0: not complete: then without instances */
     double t_from, t_to; /* when all surfaces are defined; not known yet: never */
     scene_remarks remarks;
     arena_store *store; /* of blocks for trees; not its own; NULL: the heap */

@@ -153,13 +153,6 @@ size_t instance_bytes(const shared_instance *p)
            p->piece_count * (sizeof *p->pieces + INSTANCE_PIECE);
 }
 
-/* The numbers may change between the two looks: the answer is an estimate. */
-size_t instance_bytes_share(const shared_instance *p)
-{
-    const size_t holders = p->holders, kept = p->is_kept;
-    return instance_bytes(p) / (holders > kept ? holders - kept : 1);
-}
-
 shared_instance *instance_hold(shared_instance *p)
 {
     atomic_fetch_add_explicit(&p->holders, 1, memory_order_relaxed);

@@ -45,14 +45,13 @@ typedef struct shared_instance {
     const imp_map_type *map;         /* NULL: it is a surface */
     void *self;
     _Atomic(size_t) holders;
-    _Atomic(bool) is_kept; /* one of the holders keeps it for later scenes (kept_instances.h) */
-    double lo[3], hi[3];   /* a surface's domain; of a map only the times, [2] */
-    double span[2];        /* times it is made for; -INFINITY, INFINITY: not stated */
-    const void **pieces;   /* instances that `self` owns and that replace it; NULL: one surface */
-    size_t piece_count;    /* 0: one surface */
-    imp_status breach; /* other than IMP_STATUS_OK: its domain breaks the ABI, only release it */
-    uint32_t clock;    /* if there is an `inner`: the index of its parameter in the scene */
-    size_t given;      /* bytes of the values and files it was made from, about what it keeps */
+    double lo[3], hi[3]; /* a surface's domain; of a map only the times, [2] */
+    double span[2];      /* times it is made for; -INFINITY, INFINITY: not stated */
+    const void **pieces; /* instances that `self` owns and that replace it; NULL: one surface */
+    size_t piece_count;  /* 0: one surface */
+    imp_status breach;   /* other than IMP_STATUS_OK: its domain breaks the ABI, only release it */
+    uint32_t clock;      /* if there is an `inner`: the index of its parameter in the scene */
+    size_t given;        /* bytes of the values and files it was made from, about what it keeps */
     char *label; /* as on a command line, shortened: "sphere radius=2"; NULL: its type's name */
     size_t label_size;     /* bytes, including the final NUL */
     uint64_t note_count;   /* number of items that create left out or reinterpreted; 0: no note */
@@ -99,9 +98,6 @@ enum {
     INSTANCE_PIECE = 96  /* bytes that a type keeps of one piece, as mesh does in growing arrays */
 };
 size_t instance_bytes(const shared_instance *p);
-
-/* Returns the share of these bytes that falls to one of the holders that use it. */
-size_t instance_bytes_share(const shared_instance *p);
 
 /* Puts what the caller holds onto the shelf, which takes over that hold. The lock is the
  * caller's. */

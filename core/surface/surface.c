@@ -103,10 +103,7 @@ imp_code surface_divide(surface *s)
 size_t surface_bytes(const surface *s)
 {
     size_t bytes = sizeof *s + INSTANCE_BLOCK + s->piece_count * sizeof *s;
-    if (s->outer != NULL) return bytes;
-    bytes += s->map_capacity * sizeof *s->maps + instance_bytes_share(s->origin);
-    for (size_t k = 0; k < s->map_count; ++k) bytes += instance_bytes_share(s->maps[k].origin);
-    return bytes;
+    return s->outer != NULL ? bytes : bytes + s->map_capacity * sizeof *s->maps;
 }
 
 shared_instance *surface_share(const surface *s) { return instance_hold(s->origin); }

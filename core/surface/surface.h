@@ -39,8 +39,8 @@ bool surface_is_whole(const surface *s, const imp_region *region);
 /* Returns the piece's number among the pieces of its surface; 0 if s is no piece. */
 size_t surface_piece_index(const surface *s);
 
-/* Estimates the bytes it holds: its pieces, and its share of the memory that it shares with other
- * surfaces. */
+/* Estimates the bytes it holds, its pieces included. Its instances are not counted: other surfaces,
+ * and other scenes, may share them (instance_bytes). */
 size_t surface_bytes(const surface *s);
 
 /* Sets the body and number that error messages name; the text must outlive the surface. */
