@@ -28,7 +28,7 @@ def test_the_least_distance_over_all_values_is_that_of_the_law_of_cosines():
     scene, best = arm(), apart(0.25, 0.5) - 0.5
     found = scene.clearance(tolerance=1e-3)
     assert scene.parameters == {"a": (0.25, 1.5), "s": (0.0, 0.5)}
-    assert found.lower <= best <= found.upper and found.upper - found.lower <= 1e-3 * found.upper
+    assert found.lower <= best <= found.upper and found.lower >= (1 - 1e-3) * found.upper * (1 - 1e-15)
     assert apart(**found.parameters) - 0.5 <= found.upper * (1 + 1e-9)
     assert scene.clearance(required=0.99 * best).verdict == "holds"
     broken = scene.clearance(required=1.05 * best)
