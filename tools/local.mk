@@ -272,6 +272,7 @@ tools_libverify_la_SOURCES = \
     tools/verify/enclose.c tools/verify/enclose.h \
     tools/verify/input.c tools/verify/input.h \
     tools/verify/mpfi_functions.c \
+    tools/verify/round.c tools/verify/round.h \
     tools/verify/shadow.c tools/verify/shadow.h \
     tools/verify/statement.c tools/verify/statement.h \
     tools/verify/walk.c tools/verify/walk.h

@@ -45,6 +45,10 @@ near='sphere center=2.01,0.1,0.2'
 @test "a ball that turns in its socket is proved by parts, none of which stands for others" {
     run -0 "$IMPINGE" pair 'sphere radius=.9 ! rotate axis=1,2,3 rate=2' sphere --gamma 0.01 --proof socket.proof --json
     json '.verdict == "clear" and .stats.pairs > 1'
+    run -0 verify socket.proof
+    one=$output
+    run -0 verify socket.proof --threads 3
+    [ "$output" = "$one" ]
     run -0 "$IMPINGE" pair 'sphere radius=.9 ! rotate axis=1,2,3 rate=2' sphere --gamma 0.01 --json
     json '.verdict == "clear" and .stats.pairs == 1'
 }

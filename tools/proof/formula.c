@@ -109,15 +109,30 @@ static void mark_uses(formula *f)
     }
 }
 
+/* Whether a step is a sum of terms that are each linear in a variable of its own: its interval is
+ * its range, which nothing narrows. */
+static bool is_tight(const formula *f, const step *s)
+{
+    unsigned before = 0;
+    if (s->kind == STEP_CONSTANT || s->kind == STEP_VARIABLE) return true;
+    bool tight = is_linear(f, s);
+    for (int i = 0; i < s->count && tight; ++i) {
+        const step *of = &f->steps[s->operand[i]];
+        tight = of->is_tight && (before & of->uses) == 0;
+        before |= of->uses;
+    }
+    return tight;
+}
+
 static void mark_narrowed(formula *f)
 {
+    for (int k = 0; k < f->count; ++k) f->steps[k].is_tight = is_tight(f, &f->steps[k]);
     for (int i = 0; i < 3; ++i) f->steps[f->out[i]].is_narrowed = true;
     for (int k = 0; k < f->count; ++k)
         for (int i = 0; i < f->steps[k].count && !is_linear(f, &f->steps[k]); ++i)
             f->steps[f->steps[k].operand[i]].is_narrowed = true;
     for (int k = 0; k < f->count; ++k)
-        if (f->steps[k].kind == STEP_CONSTANT || f->steps[k].kind == STEP_VARIABLE)
-            f->steps[k].is_narrowed = false;
+        if (f->steps[k].is_tight) f->steps[k].is_narrowed = false;
 }
 
 /* False: memory ran out. */

@@ -79,21 +79,37 @@ jet jet_scale(const jet *x, ld_interval k)
     return r;
 }
 
-/* (x y)'' = x'' y + x' y' + y' x' + x y'' */
+/* sum + a b */
+static ld_interval plus_product(ld_interval sum, ld_interval a, ld_interval b)
+{
+    return ld_interval_add(sum, ld_interval_mul(a, b));
+}
+
+/* (x y)'' = x'' y + x' y' + y' x' + x y'', of which are left out the terms that are 0 because x or
+ * y does not depend on a variable. */
 static ld_interval product_curvature(const jet *x, const jet *y, int j, int k)
 {
-    const ld_interval outer =
-        ld_interval_add(ld_interval_mul(x->h[j][k], y->v), ld_interval_mul(x->v, y->h[j][k]));
-    const ld_interval inner =
-        ld_interval_add(ld_interval_mul(x->d[j], y->d[k]), ld_interval_mul(x->d[k], y->d[j]));
-    return ld_interval_add(outer, inner);
+    const int both = 1 << j | 1 << k;
+    ld_interval sum = ld_interval_of(0);
+    if ((x->on & both) == both) sum = ld_interval_mul(x->h[j][k], y->v);
+    if ((y->on & both) == both) sum = plus_product(sum, x->v, y->h[j][k]);
+    if (jet_has(x, j) && jet_has(y, k)) sum = plus_product(sum, x->d[j], y->d[k]);
+    if (jet_has(x, k) && jet_has(y, j)) sum = plus_product(sum, x->d[k], y->d[j]);
+    return sum;
+}
+
+static ld_interval product_slope(const jet *x, const jet *y, int j)
+{
+    if (!jet_has(y, j)) return ld_interval_mul(x->d[j], y->v);
+    if (!jet_has(x, j)) return ld_interval_mul(x->v, y->d[j]);
+    return plus_product(ld_interval_mul(x->d[j], y->v), x->v, y->d[j]);
 }
 
 jet jet_mul(const jet *x, const jet *y)
 {
     jet r = joined(x, y, ld_interval_mul(x->v, y->v));
     for (int j = first_of(&r); j < r.n; j = next_of(&r, j)) {
-        r.d[j] = ld_interval_add(ld_interval_mul(x->d[j], y->v), ld_interval_mul(x->v, y->d[j]));
+        r.d[j] = product_slope(x, y, j);
         for (int k = j; k < r.bends; k = next_of(&r, k)) r.h[j][k] = product_curvature(x, y, j, k);
     }
     return r;

@@ -11,8 +11,10 @@
 
 #ifdef PROOF_DOUBLE
 typedef double proof_real;
+static inline proof_real proof_size(proof_real a) { return fabs(a); }
 #else
 typedef long double proof_real;
+static inline proof_real proof_size(proof_real a) { return fabsl(a); }
 #endif
 
 typedef struct ld_interval {
@@ -21,7 +23,6 @@ typedef struct ld_interval {
 
 static inline proof_real proof_larger(proof_real a, proof_real b) { return a > b ? a : b; }
 static inline proof_real proof_smaller(proof_real a, proof_real b) { return a < b ? a : b; }
-static inline proof_real proof_size(proof_real a) { return a < 0 ? -a : a; }
 
 /* NaN: infinite. */
 static inline ld_interval ld_interval_make(proof_real lo, proof_real hi)

@@ -37,6 +37,7 @@ typedef struct step {
     ld_interval constant;
     unsigned uses;    /* bit j: it depends on variable j */
     bool is_total;    /* it has a value for all values of the variables */
+    bool is_tight;    /* its interval is its range already */
     bool is_narrowed; /* by formula_jets_about: it is a coordinate, or what uses it is not linear */
     jet_function *function;
 } step;

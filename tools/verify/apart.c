@@ -7,7 +7,9 @@
 #include <math.h>
 #include <string.h>
 
-enum { DEPTH_MAX = 400, REFINEMENTS = 96 };
+/* Divisions of a side's boxes along one axis, or about a centre, about which all of a surface may
+ * be proved at once. */
+enum { DEPTH_MAX = 400, REFINEMENTS = 96, REFINEMENTS_ROUND = 1024 };
 
 /* --- Cells ------------------------------------------------------------------------------------ */
 
@@ -106,8 +108,8 @@ static void take_aims(prover *p, const cell *c, const double n[3], aim a[2])
     if (!(fabs(slope) < INFINITY)) slope = 0;
     for (int side = 0; side < 2; ++side) {
         const double sign = side == 0 ? 1 : -1;
-        a[side] =
-            (aim){{sign * n[0], sign * n[1], sign * n[2]}, sign * slope, middle(c->t[0], c->t[1])};
+        a[side] = (aim){
+            {sign * n[0], sign * n[1], sign * n[2]}, sign * slope, middle(c->t[0], c->t[1]), NULL};
     }
 }
 
@@ -137,21 +139,19 @@ static void take_trial(const prover *p, double limit, trial *tried)
 
 /* Bounds lose what they lack, most - low, about as 1 / step where two variables are divided: gives
  * up where they will lack too much, or cost too much, when they are done. */
-static bool is_hopeless(int step, double low, double most)
+static bool is_hopeless(int step, int steps_most, double low, double most)
 {
     const double lacks = (most - low) / most;
-    return step >= REFINEMENTS || (step >= 4 && lacks * step > 2 * REFINEMENTS);
+    return step >= steps_most || (step >= 4 && lacks * step > 2 * steps_most);
 }
 
-/* Lemma. |n.(B - A)| <= |n| |B - A|: where n.(B - A) >= |n| apart over the cell, no two points of
- * it are nearer. n.A is at most what A reaches along n, and -n.B what B reaches along -n. The sides
+/* Lemma. |f(B) - f(A)| <= change |B - A| for n.x, which changes by |n| for a unit of length, and
+ * for distances (round.c): where f(B) - f(A) >= change apart over the cell, no two points of it are
+ * nearer. f(A) is at most what A reaches, and -f(B) what B reaches in its own direction. The sides
  * are divided one by one, since neither bound depends on the other side. */
-static outcome try_axis(prover *p, const cell *c, const double n[3], trial *tried)
+static outcome try_aims(prover *p, const cell *c, const aim a[2], double change_upper, trial *tried)
 {
-    const ld_interval x[3] = {ld_interval_of(n[0]), ld_interval_of(n[1]), ld_interval_of(n[2])};
-    const double limit = ld_interval_mul(length_of(x), ld_interval_of(p->apart)).hi;
-    aim a[2];
-    take_aims(p, c, n, a);
+    const double limit = ld_interval_mul(ld_interval_of(change_upper), ld_interval_of(p->apart)).hi;
     for (int side = 0; side < 2; ++side) {
         p->areas[side].count = 0;
         p->areas[side].memory = p->kept;
@@ -163,6 +163,7 @@ static outcome try_axis(prover *p, const cell *c, const double n[3], trial *trie
         }
     }
     take_trial(p, limit, tried);
+    const int steps = a[0].about != NULL ? REFINEMENTS_ROUND : REFINEMENTS;
     for (int step = 0;; ++step) {
         if (p->areas[0].count == 0 || p->areas[1].count == 0) return APART; /* it does not exist */
         const reach r[2] = {areas_reach(&p->areas[0]), areas_reach(&p->areas[1])};
@@ -170,13 +171,57 @@ static outcome try_axis(prover *p, const cell *c, const double n[3], trial *trie
             ld_interval_add(ld_interval_of(r[0].bound), ld_interval_of(r[1].bound));
         if (-sum.hi >= limit) return APART;
         const double most = -(r[0].value + r[1].value) - limit, low = -sum.hi - limit;
-        if (!(most > 0) || is_hopeless(step, low, most)) return DIVIDE;
+        if (!(most > 0) || is_hopeless(step, steps, low, most)) return DIVIDE;
         const int side = r[1].bound - r[1].value > r[0].bound - r[0].value;
         bool divided;
         const char *why = areas_divide(&p->areas[side], r[side].worst, &a[side], &divided);
         if (why != NULL) return fail(p, c, INFINITY, why);
         if (!divided) return DIVIDE;
     }
+}
+
+static outcome try_axis(prover *p, const cell *c, const double n[3], trial *tried)
+{
+    const ld_interval x[3] = {ld_interval_of(n[0]), ld_interval_of(n[1]), ld_interval_of(n[2])};
+    aim a[2];
+    take_aims(p, c, n, a);
+    const outcome o = try_aims(p, c, a, length_of(x).hi, tried);
+    p->boxes += p->areas[0].count + p->areas[1].count;
+    return o;
+}
+
+/* Tests of a leaf before its surfaces' centres are guessed; and boxes that centres may waste,
+ * beside 1 / WASTE_PART of all boxes of axes. */
+enum { TESTS_BEFORE_CENTRES = 6, WASTE_MOST = 4096, WASTE_PART = 64 };
+
+static void guess_centres(prover *p, const cell *c)
+{
+    p->has_guessed = true;
+    p->centre_count = 0;
+    for (int side = 0; side < 2; ++side) {
+        const place of = piece_at(p, side, c->first[side]);
+        p->centre_count +=
+            centre_guess(p->kept, &of, middle(c->t[0], c->t[1]), &p->centres[p->centre_count]);
+    }
+}
+
+/* Tries the centres of both surfaces of a cell of single pieces. */
+static outcome try_centres(prover *p, const cell *c, trial *tried)
+{
+    place of[2];
+    box3 where[2];
+    if (p->wasted > WASTE_MOST + p->boxes / WASTE_PART) return DIVIDE;
+    if (!p->has_guessed && p->tests > TESTS_BEFORE_CENTRES) guess_centres(p, c);
+    for (int side = 0; side < 2; ++side) where[side] = area_of(p, c, side, 0, &of[side]);
+    for (int k = 0; k < p->centre_count; ++k) {
+        aim a[2];
+        double change_upper;
+        if (!centre_aims(p->kept, &p->centres[k], of, where, a, &change_upper)) continue;
+        const outcome o = try_aims(p, c, a, change_upper, tried);
+        p->wasted = o == APART ? 0 : p->wasted + p->areas[0].count + p->areas[1].count;
+        if (o != DIVIDE) return o;
+    }
+    return DIVIDE;
 }
 
 /* --- A cell ----------------------------------------------------------------------------------- */
@@ -292,6 +337,12 @@ static outcome test(prover *p, const cell *c, cut *by)
     if (o != DIVIDE || (is_single && by->side >= 0)) return o;
     trial tried = {.left = -INFINITY};
     bool some = is_single ? widest(c, &tried, by) : divide_many(c, &tried, by);
+    if (is_single) {
+        o = try_centres(p, c, &tried);
+        if (o != DIVIDE) return o;
+        best = tried.left;
+        if (best > -INFINITY) some = widest(c, &tried, by);
+    }
     find_axes(p, c, n);
     for (int m = 0; m < AXES; ++m) {
         if (!is_axis(n[m])) continue;
@@ -319,9 +370,16 @@ static bool prove(prover *p, const cell *c, int depth)
     return prove(p, &half[0], depth + 1) && prove(p, &half[1], depth + 1);
 }
 
+void prover_forget(prover *p)
+{
+    p->centre_count = 0;
+    p->boxes = p->wasted = 0;
+}
+
 bool prove_apart(prover *p, const cell *c)
 {
     p->tests = 0;
+    p->has_guessed = false;
     p->found = INFINITY;
     p->why = "";
     return prove(p, c, 0);

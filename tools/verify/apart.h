@@ -3,7 +3,7 @@
 #ifndef TOOLS_VERIFY_APART_H
 #define TOOLS_VERIFY_APART_H
 
-#include "tools/verify/shadow.h"
+#include "tools/verify/round.h"
 
 /* Cells in which two surfaces are proved to be apart */
 
@@ -23,10 +23,18 @@ typedef struct prover {
     double axis[3];                  /* hint; 0: none */
     kept *kept;                      /* KEPT of them */
     areas areas[2];                  /* of either side; to be freed */
-    cell worst;                      /* where it ended, and */
-    double found;    /* what was found there: two points so near, or INFINITY: nothing but */
-    const char *why; /* this */
+    centre centres[2];               /* of either side, as guessed in this leaf or before */
+    int centre_count;
+    size_t boxes;     /* of axes */
+    size_t wasted;    /* boxes of centres, since one of them parted a cell */
+    bool has_guessed; /* in this leaf */
+    cell worst;       /* where it ended, and */
+    double found;     /* what was found there: two points so near, or INFINITY: nothing but */
+    const char *why;  /* this */
 } prover;
+
+/* Forgets what leaves before have told, so that a leaf's effort depends on no other share. */
+void prover_forget(prover *p);
 
 /* Makes `c` all of both pieces, if they are single. */
 void cell_begin(const prover *p, cell *c);

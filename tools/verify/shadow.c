@@ -9,6 +9,7 @@
 #include <string.h>
 
 #include "core/common/array.h"
+#include "tools/verify/round.h"
 
 /* --- Enclosures ------------------------------------------------------------------------------- */
 
@@ -80,7 +81,8 @@ static void find_sizes(const jet *over, const jet *at, const double half[VARIABL
 
 static shadow cast(const kept *k, const aim *a)
 {
-    jet over = along(k->box, a->n), at = along(k->centre, a->n);
+    jet over = a->about != NULL ? centre_distance(k->box, a) : along(k->box, a->n);
+    jet at = a->about != NULL ? centre_distance(k->centre, a) : along(k->centre, a->n);
     ld_interval offset[BOX_DIMS];
     double half[VARIABLES];
     for (int j = 0; j < VARIABLES; ++j) {

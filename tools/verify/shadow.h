@@ -38,13 +38,16 @@ static inline double middle(double lo, double hi)
 
 /* --- Shadows ---------------------------------------------------------------------------------- */
 
+typedef struct centre centre; /* round.h */
+
 /* Each side's own direction of an axis: n of A, -n of B. A line in time is subtracted, which both
- * sides have in common, so that it cancels. */
+ * sides have in common, so that it cancels. Or away from a centre, if n[0] > 0, or towards it. */
 typedef struct aim {
     double n[3], slope, mid;
+    const centre *about; /* NULL: an axis */
 } aim;
 
-/* n.x - slope (t - mid) over a box of one side. */
+/* n.x - slope (t - mid), or the distance from the centre, over a box of one side. */
 typedef struct shadow {
     double lo, hi;          /* bounds */
     double value;           /* at the centre, about */

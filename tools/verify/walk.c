@@ -58,6 +58,7 @@ static bool take_leaf(pair *p, const cell *c, unsigned op)
     if (w->text != NULL && op != OP_ALONE)
         fprintf(w->text, "leaf axis %g %g %g\n", p->axis[0], p->axis[1], p->axis[2]);
     for (int i = 0; i < 3; ++i) q->axis[i] = op == OP_ALONE ? 0 : p->axis[i];
+    if (w->leaves % LEAVES_A_SHARE == 0) prover_forget(q);
     const bool mine = w->leaves++ / LEAVES_A_SHARE % w->shares == w->share;
     if (w->progress != NULL) w->progress(w->in->at);
     if (!mine || !p->is_said || input_is_refused(w->in)) return !input_is_refused(w->in);

@@ -1,0 +1,205 @@
+/* SPDX-FileCopyrightText: The Impinge authors
+ * SPDX-License-Identifier: Apache-2.0 */
+#include <config.h>
+
+#include "tools/verify/round.h"
+
+#include <math.h>
+#include <string.h>
+
+/* --- Guesses ---------------------------------------------------------------------------------- */
+
+enum { ALONG_U = 5, ALONG_V = 3, NORMALS = ALONG_U * ALONG_V, UNKNOWNS = 6 };
+
+static double dot(const double a[3], const double b[3])
+{
+    return a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
+}
+
+static void cross(const double a[3], const double b[3], double r[3])
+{
+    for (int i = 0; i < 3; ++i) {
+        const int j = (i + 1) % 3, k = (i + 2) % 3;
+        r[i] = a[j] * b[k] - a[k] * b[j];
+    }
+}
+
+/* Lines along normals: p + s n, |n| = 1, moved and scaled so that |p| <= 1 about the mean of p. */
+typedef struct normals {
+    double p[NORMALS][3], n[NORMALS][3], mean[3], scale;
+    int count;
+} normals;
+
+static void take_normal(kept *memory, const place *of, const box3 *where, normals *all)
+{
+    const kept *k = kept_look(memory, of, where);
+    double u[3], v[3], *p = all->p[all->count], *n = all->n[all->count];
+    if (k->result != ENCLOSED) return;
+    for (int i = 0; i < 3; ++i) {
+        p[i] = ld_interval_mid(k->centre[i].v);
+        u[i] = ld_interval_mid(k->centre[i].d[U]), v[i] = ld_interval_mid(k->centre[i].d[V]);
+    }
+    cross(u, v, n);
+    const double length = sqrt(dot(n, n));
+    if (!(length > 0 && length < INFINITY && dot(p, p) < INFINITY)) return;
+    for (int i = 0; i < 3; ++i) n[i] /= length;
+    all->count += 1;
+}
+
+static bool take_normals(kept *memory, const place *of, double t, normals *all)
+{
+    box3 whole, where = {{0, 0, t}, {0, 0, t}};
+    piece_box(of, &whole);
+    memset(all, 0, sizeof *all);
+    for (int k = 0; k < NORMALS; ++k) {
+        const double share[2] = {(k / ALONG_V + 0.4) / ALONG_U, (k % ALONG_V + 0.4) / ALONG_V};
+        for (int j = 0; j < 2; ++j)
+            where.lo[j] = where.hi[j] = whole.lo[j] + (whole.hi[j] - whole.lo[j]) * share[j];
+        take_normal(memory, of, &where, all);
+    }
+    for (int k = 0; k < all->count; ++k)
+        for (int i = 0; i < 3; ++i) all->mean[i] += all->p[k][i] / all->count;
+    for (int k = 0; k < all->count; ++k) {
+        for (int i = 0; i < 3; ++i) all->p[k][i] -= all->mean[i];
+        all->scale = fmax(all->scale, sqrt(dot(all->p[k], all->p[k])));
+    }
+    for (int k = 0; k < all->count && all->scale > 0; ++k)
+        for (int i = 0; i < 3; ++i) all->p[k][i] /= all->scale;
+    return all->count >= UNKNOWNS && all->scale > 0;
+}
+
+/* Solves m x = b by elimination, b becomes x; false: m is singular, nearly. */
+static bool solve(int size, double m[UNKNOWNS][UNKNOWNS], double b[UNKNOWNS])
+{
+    for (int k = 0; k < size; ++k) {
+        int best = k;
+        for (int i = k + 1; i < size; ++i)
+            if (fabs(m[i][k]) > fabs(m[best][k])) best = i;
+        if (!(fabs(m[best][k]) > 1e-14)) return false;
+        for (int j = 0; j < size; ++j) {
+            const double upper = m[k][j];
+            m[k][j] = m[best][j], m[best][j] = upper;
+        }
+        const double other = b[k];
+        b[k] = b[best], b[best] = other;
+        for (int i = 0; i < size; ++i) {
+            const double times = i != k ? m[i][k] / m[k][k] : 0;
+            for (int j = k; j < size; ++j) m[i][j] -= times * m[k][j];
+            b[i] -= times * b[k];
+        }
+    }
+    for (int k = 0; k < size; ++k) b[k] /= m[k][k];
+    return true;
+}
+
+/* A mean square of distances, of a surface of size 1, that is due to rounding. */
+#define NEAR 1e-16
+
+/* The point nearest to all lines, by least squares. */
+static bool find_point(const normals *all, double c[3])
+{
+    double m[UNKNOWNS][UNKNOWNS] = {{0}}, b[UNKNOWNS] = {0}, sum = 0;
+    for (int k = 0; k < all->count; ++k)
+        for (int i = 0; i < 3; ++i)
+            for (int j = 0; j < 3; ++j) {
+                const double across = (i == j) - all->n[k][i] * all->n[k][j];
+                m[i][j] += across;
+                b[i] += across * all->p[k][j];
+            }
+    if (!solve(3, m, b)) return false;
+    for (int k = 0; k < all->count; ++k) {
+        double from[3];
+        for (int i = 0; i < 3; ++i) from[i] = b[i] - all->p[k][i];
+        const double along = dot(from, all->n[k]);
+        sum += dot(from, from) - along * along;
+    }
+    memcpy(c, b, 3 * sizeof *c);
+    return sum <= NEAR * all->count;
+}
+
+/* The line that meets all lines. In Pluecker's coordinates, direction d and moment m = c x d, it
+ * meets one if d.(p x n) + m.n = 0: the least eigenvector of a matrix. Normals of a cylinder leave
+ * open how much of d is in m. */
+static bool find_line(const normals *all, double c[3], double d[3])
+{
+    double g[UNKNOWNS][UNKNOWNS] = {{0}}, x[UNKNOWNS] = {1, 0.7, 0.4, 0.3, 0.6, 0.8};
+    for (int k = 0; k < all->count; ++k) {
+        double q[UNKNOWNS];
+        cross(all->p[k], all->n[k], q);
+        memcpy(q + 3, all->n[k], 3 * sizeof *q);
+        for (int i = 0; i < UNKNOWNS; ++i)
+            for (int j = 0; j < UNKNOWNS; ++j) g[i][j] += q[i] * q[j];
+    }
+    for (int step = 0; step < 2; ++step) {
+        double m[UNKNOWNS][UNKNOWNS];
+        memcpy(m, g, sizeof m);
+        for (int i = 0; i < UNKNOWNS; ++i) m[i][i] += 1e-12;
+        if (!solve(UNKNOWNS, m, x)) return false;
+        const double length = sqrt(dot(x, x) + dot(x + 3, x + 3));
+        for (int i = 0; i < UNKNOWNS; ++i) x[i] /= length;
+    }
+    double sum = 0;
+    for (int i = 0; i < UNKNOWNS; ++i)
+        for (int j = 0; j < UNKNOWNS; ++j) sum += x[i] * g[i][j] * x[j];
+    const double length = sqrt(dot(x, x));
+    if (!(length > 1e-3) || !(sum <= NEAR * all->count)) return false;
+    cross(x, x + 3, c);
+    for (int i = 0; i < 3; ++i) d[i] = x[i] / length, c[i] /= length * length;
+    return true;
+}
+
+bool centre_guess(kept *memory, const place *of, double t, centre *found)
+{
+    normals all;
+    memset(found, 0, sizeof *found);
+    if (!take_normals(memory, of, t, &all)) return false;
+    found->is_line = !find_point(&all, found->c);
+    if (found->is_line && !find_line(&all, found->c, found->d)) return false;
+    for (int i = 0; i < 3; ++i) found->c[i] = found->c[i] * all.scale + all.mean[i];
+    return true;
+}
+
+/* --- Distances -------------------------------------------------------------------------------- */
+
+/* Lemma. |x - c| changes by no more than |x - y| from x to y, and |(x - c) x d| by no more than |d|
+ * times that. */
+jet centre_distance(const jet x[3], const aim *a)
+{
+    const double *d = a->about->d;
+    jet w[3], r[3];
+    for (int i = 0; i < 3; ++i) {
+        const jet c = jet_constant(VARIABLES, ld_interval_of(a->about->c[i]));
+        w[i] = jet_sub(&x[i], &c);
+    }
+    const bool is_line = a->about->is_line;
+    for (int i = 0; i < 3 && is_line; ++i) {
+        const int j = (i + 1) % 3, k = (i + 2) % 3;
+        const jet first = jet_scale(&w[j], ld_interval_of(d[k]));
+        const jet second = jet_scale(&w[k], ld_interval_of(-d[j]));
+        r[i] = jet_add(&first, &second);
+    }
+    const jet *const parts[3] = {is_line ? &r[0] : &w[0], is_line ? &r[1] : &w[1],
+                                 is_line ? &r[2] : &w[2]};
+    const jet distance = jet_length(parts, 3);
+    return a->n[0] > 0 ? distance : jet_neg(&distance);
+}
+
+bool centre_aims(kept *memory, const centre *about, const place of[2], const box3 where[2],
+                 aim a[2], double *change_upper)
+{
+    double distance[2];
+    for (int side = 0; side < 2; ++side) {
+        const aim out = {.n = {1, 0, 0}, .about = about};
+        const kept *k = kept_look(memory, &of[side], &where[side]);
+        if (k->result != ENCLOSED) return false;
+        distance[side] = ld_interval_mid(centre_distance(k->centre, &out).v);
+    }
+    const double sign = distance[1] > distance[0] ? 1 : -1;
+    for (int side = 0; side < 2; ++side)
+        a[side] = (aim){.n = {side == 0 ? sign : -sign, 0, 0}, .about = about};
+    ld_interval square = ld_interval_of(0);
+    for (int i = 0; i < 3; ++i)
+        square = ld_interval_add(square, ld_interval_sqr(ld_interval_of(about->d[i])));
+    *change_upper = about->is_line ? ld_interval_sqrt(square).hi : 1;
+    return true;
+}
