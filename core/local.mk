@@ -48,6 +48,7 @@ core_surface = \
     core/surface/surface_orbit.c core/surface/surface_pair_slip.c \
     core/surface/surface_rate.c core/surface/surface_slip.c \
     core/surface/surface_shift.c core/surface/surface_shift.h \
+    core/surface/surface_spread.c core/surface/surface_spread.h \
     core/surface/surface_symmetry.c
 
 core_tree = \
@@ -191,6 +192,7 @@ core_solver = \
     core/solver/min_distance.c core/solver/min_distance.h \
     core/solver/pair_heap.c core/solver/pair_heap.h \
     core/solver/pair_note.h \
+    core/solver/pair_spread.c core/solver/pair_spread.h \
     core/solver/pair_step.c core/solver/pair_step.h \
     core/solver/pair_test.c core/solver/pair_test.h \
     core/solver/query.c \
@@ -218,6 +220,7 @@ core_survey = \
     core/survey/survey_mark.c \
     core/survey/survey_measure.c \
     core/survey/survey_pairs.c \
+    core/survey/survey_spread.c \
     core/survey/survey_state.c
 
 core_reader = \

@@ -157,6 +157,7 @@ IMP_QUAD_INLINE void recentre(const node *a, const node *b, const time_window *w
     r->half = window_half_upper(window, r->mid);
     r->focus = -1;
     r->share = TUNING_GJK_GAP;
+    r->way_count = 0;
     moved ma = slice_at(a, r->mid, r->half, &r->a), mb = slice_at(b, r->mid, r->half, &r->b);
     const imp_quad e = remainders(a, b, r, &ma, &mb);
     const imp_quad apart = imp_quad_load(b->f.a) - imp_quad_load(a->f.a);

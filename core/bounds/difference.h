@@ -3,6 +3,8 @@
 #ifndef CORE_BOUNDS_DIFFERENCE_H
 #define CORE_BOUNDS_DIFFERENCE_H
 
+#include <stddef.h>
+
 #include "core/bounds/time_window.h"
 
 /* The Minkowski difference of two nodes' Taylor models, re-centred on a window of time. */
@@ -27,10 +29,12 @@ typedef struct difference {
     int posed;       /* number of posed nodes: their remainders turn (posed_terms.h) */
     double edge[2][3][4], swing[2][3][4]; /* of posed nodes; slack has the rest */
     double magnitude[4];                  /* >= sum of abs of the coefficients above */
-    double squares;   /* 0: neither slice has a square of s_u or s_v; else not 0, or NaN */
-    double mid, half; /* of the window; half is rounded up */
-    double share;     /* GJK stops at an axis that shows this part of the widest gap */
-    double focus;     /* the w that axes are chosen for; -1: the start of the window */
+    double squares;    /* 0: neither slice has a square of s_u or s_v; else not 0, or NaN */
+    double mid, half;  /* of the window; half is rounded up */
+    double share;      /* GJK stops at an axis that shows this part of the widest gap */
+    double focus;      /* the w that axes are chosen for; -1: the start of the window */
+    size_t way_count;  /* 0, unless the caller sets it and */
+    double (*ways)[4]; /* ways: B - A is the sum of x above and of d_k ways[k], |d_k| <= 1 */
 } difference;
 
 /* Rounding of a `difference`'s coefficients that slack does not count: units of u times

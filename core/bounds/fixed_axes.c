@@ -194,6 +194,21 @@ enum { AXIS_ROUNDING = 256 };
 _Static_assert(DIFFERENCE_ROUNDING + 6 + 2 + 2 * QUADRATIC_ROUNDING + 16 + 12 <= AXIS_ROUNDING,
                "rounding along one axis");
 
+/* Lemma (ways). A sum of d_k ways[k], any |d_k| <= 1, is along n at most sum_k |n.ways[k]|, in any
+ * of its senses. A dot is off by at most 4 u (|n| |way|, of the 1-norms), the sum by one rounding
+ * for each way: WAYS_ROUNDING outweighs both, beside the sums of the norms themselves. */
+enum { WAYS_ROUNDING = 1024 };
+
+IMP_QUAD_INLINE imp_quad along_ways(const difference *r, const bundle *n)
+{
+    imp_quad sum = imp_quad_all(0), size = sum;
+    for (size_t k = 0; k < r->way_count; ++k) {
+        sum += imp_quad_abs(along(n, r->ways[k]));
+        for (int i = 0; i < 3; ++i) size += n->size[i] * imp_quad_all(fabs(r->ways[k][i]));
+    }
+    return sum + size * imp_quad_all(WAYS_ROUNDING * UNIT_ROUNDOFF);
+}
+
 IMP_QUAD_INLINE bool cut_along_bundle(const difference *r, bundle *n, double gamma_clear,
                                       w_range *s, gap_lines *lines, bool is_posed, bool bends)
 {
@@ -203,9 +218,9 @@ IMP_QUAD_INLINE bool cut_along_bundle(const difference *r, bundle *n, double gam
     const imp_quad offset = along(n, r->delta), drift = along(n, r->drift);
     const imp_quad bend = along(n, r->bend), none = imp_quad_all(0);
     const imp_quad size = weighted(n, r->magnitude);
-    const imp_quad slack = weighted(n, r->slack) +
-                           size * imp_quad_all(AXIS_ROUNDING * UNIT_ROUNDOFF) +
-                           imp_quad_all(QUADRATIC_UNDERFLOW);
+    imp_quad slack = weighted(n, r->slack) + size * imp_quad_all(AXIS_ROUNDING * UNIT_ROUNDOFF) +
+                     imp_quad_all(QUADRATIC_UNDERFLOW);
+    if (r->way_count > 0) slack += along_ways(r, n);
     const imp_quad_mask sane = (longest > imp_quad_all(0x1p-400)) &
                                (longest < imp_quad_all(0x1p400)) & (size < imp_quad_all(0x1p400));
     const imp_quad limit = imp_quad_pick(sane, limit_upper(n, gamma_clear), imp_quad_all(INFINITY));

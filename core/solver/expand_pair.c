@@ -257,7 +257,7 @@ static imp_code expand_by_models(impact *im, pair *p, impact_state *state, imp_e
         witness seen;
         code = find_witness(im, p, true, &seen, error);
         if (code != IMP_SUCCESS) return code;
-        if (seen.gap_upper <= im->gamma)
+        if (pair_spread_ends(im, p, &seen))
             *state = impact_contact(im, &seen);
         else if (precision_ends(im, p, 1))
             *state = resolution_ends(im, p);

@@ -6,6 +6,7 @@
 #include "core/bounds/separation.h"
 #include "core/bounds/trial_rate.h"
 #include "core/proof/proof_log.h"
+#include "core/solver/pair_spread.h"
 #include "core/solver/subdivision.h"
 #include "core/solver/upper_time.h"
 #include "core/witness/witness.h"
@@ -53,7 +54,8 @@ typedef struct impact {
     candidate_pair *candidate_pairs; /* the caller's */
     size_t candidate_pair_count;     /* 0: each pair's roots are tested when added */
     imp_stats *stats; /* the caller's; its bytes are those of the trees, without the heap */
-    proof_log *proof; /* the caller's; NULL: none is kept */
+    const query_spread *spread; /* the caller's; NULL: the scene is no middle of a box of values */
+    proof_log *proof;           /* the caller's; NULL: none is kept */
     pair_heap heap;
     upper_time upper;           /* used with Taylor models only */
     imp_explanation *explained; /* counts for each candidate pair; NULL: not asked for */

@@ -24,7 +24,8 @@ bool pair_test_fully(const impact *im, pair *p)
     if (im->baseline != IMP_BASELINE_NONE) return test_by_paper(im, p);
     p->is_seen_only = false;
     return separation_window(p->a, p->b, im->gamma_clear, &p->window, &p->axis,
-                             impact_turning(im, p));
+                             impact_turning(im, p)) &&
+           pair_spread_cut(im, p);
 }
 
 /* --- The first test --------------------------------------------------------------------------- */
@@ -65,6 +66,7 @@ imp_code pair_test_first(const impact *im, pair_test *t, trial_rate *turning, im
                   ? test_by_paper(im, &t->p)
                   : separation_first_look(t->p.a, t->p.b, im->gamma_clear, &t->p.window, &t->p.axis,
                                           turning, &t->p.is_seen_only);
+    if (t->near && !t->p.is_seen_only) t->near = pair_spread_cut(im, &t->p);
     return IMP_SUCCESS;
 }
 

@@ -99,6 +99,11 @@ void imp_query_cancel(imp_query *query)
     if (query != NULL) atomic_store(&query->cancelled, true);
 }
 
+void query_use_spread(imp_query *query, const query_spread *spread)
+{
+    query->impact.spread = spread;
+}
+
 /* --- Running ---------------------------------------------------------------------------------- */
 
 void query_finish(imp_query *query, imp_verdict verdict, imp_reason reason)

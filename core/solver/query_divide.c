@@ -103,6 +103,7 @@ static imp_query *fresh_query(const imp_query *whole, imp_error *error)
                              .gamma_clear = whole->impact.gamma_clear,
                              .window = whole->impact.window,
                              .baseline = whole->impact.baseline,
+                             .spread = whole->impact.spread,
                              .stats = &query->stats,
                              .t_lower = whole->options.t_start};
     atomic_init(&query->cancelled, false);

@@ -198,7 +198,7 @@ static void postpone(impact *im, pair *p)
 static imp_code seek_upper_time(impact *im, pair *p, imp_error *error)
 {
     bool sought;
-    if (im->baseline != IMP_BASELINE_NONE) return IMP_SUCCESS;
+    if (im->baseline != IMP_BASELINE_NONE || im->spread != NULL) return IMP_SUCCESS;
     const imp_code code = upper_time_follow(&im->upper, p, im->gamma, &sought, error);
     im->stats->witness_searches += sought;
     if (im->upper.is_known) impact_note_gap(im, &im->upper.seen);

@@ -270,8 +270,9 @@ static void set_unbounded(const value_box *box, double *shift, surface_image *im
  * stretch times |x(p) - x(c)|, since the reach is convex. What the first adds is counted for the
  * parameter that the map follows. Two products and a sum for each map. */
 PAD_COVERS(8, 2 + 1);
-imp_status surface_shift_upper(const surface *s, const surface_extent *extent, size_t left_out,
-                               const value_box *box, double *shift, surface_image *image)
+imp_status surface_shift_trace(const surface *s, const surface_extent *extent, size_t left_out,
+                               const value_box *box, double *shift, surface_image *image,
+                               map_reach *reaches)
 {
     reach r;
     imp_status status = IMP_STATUS_OK;
@@ -288,6 +289,9 @@ imp_status surface_shift_upper(const surface *s, const surface_extent *extent, s
         const shared_instance *p = s->maps[j].origin;
         step to;
         status = step_begin(&s->maps[j], box, &r, &to);
+        if (reaches != NULL && status == IMP_STATUS_OK)
+            reaches[j] = (map_reach){
+                {r.centre[0], r.centre[1], r.centre[2]}, r.radius, to.stretch, to.speed};
         if (status == IMP_STATUS_OK) status = advance(&to, &r);
         if (status != IMP_STATUS_OK) break;
         if (p->inner == NULL && (to.moves || !is_timeless(p))) image->follows_time = true;
@@ -302,4 +306,10 @@ imp_status surface_shift_upper(const surface *s, const surface_extent *extent, s
     if (status != IMP_STATUS_UNBOUNDED) return status;
     set_unbounded(box, shift, image);
     return IMP_STATUS_OK;
+}
+
+imp_status surface_shift_upper(const surface *s, const surface_extent *extent, size_t left_out,
+                               const value_box *box, double *shift, surface_image *image)
+{
+    return surface_shift_trace(s, extent, left_out, box, shift, image, NULL);
 }

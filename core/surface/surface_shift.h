@@ -40,4 +40,16 @@ typedef struct surface_image {
 imp_status surface_shift_upper(const surface *s, const surface_extent *extent, size_t left_out,
                                const value_box *box, double *shift, surface_image *image);
 
+/* The surface before a map, at all times and values of a box, and what the map does there. */
+typedef struct map_reach {
+    double centre[3], radius; /* of a ball that holds it */
+    double stretch, speed;    /* of the map: of lengths; per unit of what it follows */
+} map_reach;
+
+/* Does what surface_shift_upper does, and tells of each map but the last `left_out`; reaches may be
+ * NULL. They are not set where a shift is INFINITY. */
+imp_status surface_shift_trace(const surface *s, const surface_extent *extent, size_t left_out,
+                               const value_box *box, double *shift, surface_image *image,
+                               map_reach *reaches);
+
 #endif

@@ -142,8 +142,8 @@ static bool must_end(imp_survey *s, imp_reason reason)
 }
 
 static imp_code run_contact(imp_survey *s, imp_scene *scene, query_times times,
-                            const double gamma[2], uint64_t pairs, imp_result *result,
-                            imp_error *error)
+                            const double gamma[2], uint64_t pairs, const query_spread *spread,
+                            imp_result *result, imp_error *error)
 {
     imp_options options = options_of_query(s, times.start, times.end, pairs);
     options.gamma = gamma[0];
@@ -151,6 +151,7 @@ static imp_code run_contact(imp_survey *s, imp_scene *scene, query_times times,
     *result = (imp_result){.struct_size = (uint32_t)sizeof *result};
     imp_query *query = imp_query_new(scene, &options, error);
     if (query == NULL) return error != NULL ? error->code : IMP_ERROR_USAGE;
+    query_use_spread(query, spread);
     imp_code code = imp_query_step(query, 0, error);
     if (code == IMP_SUCCESS) code = imp_query_get_result(query, result, error);
     if (code == IMP_SUCCESS) add_stats(s, &result->stats);
@@ -299,7 +300,7 @@ static imp_code ask_own(imp_survey *s, const survey_box *box, imp_scene *scene, 
     const double own[2] = {s->gamma, s->gamma_clear};
     const uint64_t limit = OWN_PAIRS_LEAST + OWN_PAIRS_TIMES * pairs;
     imp_result found;
-    const imp_code code = run_contact(s, scene, times_of(s, box), own, limit, &found, error);
+    const imp_code code = run_contact(s, scene, times_of(s, box), own, limit, NULL, &found, error);
     if (code != IMP_SUCCESS) return code;
     if (found.verdict == IMP_VERDICT_CONTACT) note_contact(s, box, &found);
     if (found.verdict != IMP_VERDICT_UNDECIDED) return IMP_SUCCESS;
@@ -315,17 +316,36 @@ static void tell_later(imp_survey *s, const survey_box *box)
     survey_tell(s, box, box->key, s->options.t_end, IMP_VERDICT_UNDECIDED, 0);
 }
 
+/* Asks the query with room for the shift; what is excluded along the way the values move the bodies
+ * counts, too, unless a contact is to be one of the scene (is_fine). */
+static imp_code run_box(imp_survey *s, const survey_box *box, imp_scene *scene,
+                        const survey_view *view, const double gamma[2], bool is_fine,
+                        imp_result *found, imp_error *error)
+{
+    const query_times times = times_of(s, box);
+    query_spread spread;
+    if (is_fine || is_rest(&s->pairs[box->pair]))
+        return run_contact(s, scene, times, gamma, 0, NULL, found, error);
+    imp_code code = survey_spread_make(s, box, view, &spread, error);
+    if (code == IMP_SUCCESS)
+        code =
+            run_contact(s, scene, times, gamma, 0, spread.is_known ? &spread : NULL, found, error);
+    survey_spread_clear(&spread);
+    return code;
+}
+
 /* Asks the query with room for the shift, then, where a contact is too coarse to be one of the
  * scene, the query without. */
-static imp_code ask_queries(imp_survey *s, survey_box *box, imp_scene *scene, double total,
-                            box_rest *rest, imp_error *error)
+static imp_code ask_queries(imp_survey *s, survey_box *box, imp_scene *scene,
+                            const survey_view *view, box_rest *rest, imp_error *error)
 {
+    const double total = view->total;
     const double between = s->gamma - s->gamma_clear;
     const bool is_fine = total <= 0.5 * between;
     const double clear = total > 0 ? sum_upper(s->gamma_clear, total) : s->gamma_clear;
     const double coarse[2] = {is_fine ? s->gamma : clear + 0.25 * (total + between), clear};
     imp_result found;
-    imp_code code = run_contact(s, scene, times_of(s, box), coarse, 0, &found, error);
+    imp_code code = run_box(s, box, scene, view, coarse, is_fine, &found, error);
     if (code != IMP_SUCCESS) return code;
     prove_until(s, box, found.t_lower, found.verdict == IMP_VERDICT_CLEAR);
     if (found.verdict == IMP_VERDICT_CLEAR) {
@@ -357,7 +377,7 @@ static imp_code ask_contact(imp_survey *s, survey_box *box, box_rest *rest, imp_
     if (view.total < INFINITY) {
         code = scene_of_box(s, box, &scene, error);
         if (code != IMP_SUCCESS) return code;
-        code = ask_queries(s, box, scene, view.total, rest, error);
+        code = ask_queries(s, box, scene, &view, rest, error);
         imp_scene_free(scene);
         if (code != IMP_SUCCESS || *rest != BOX_OPEN) return code;
     }

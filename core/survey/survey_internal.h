@@ -9,6 +9,7 @@
 #include "core/broad_phase/examined_times.h"
 #include "core/scene/scene.h"
 #include "core/scene/tolerances.h"
+#include "core/solver/pair_spread.h"
 #include "core/surface/surface_shift.h"
 #include "core/survey/box_queue.h"
 
@@ -122,10 +123,17 @@ typedef struct survey_view {
     const double *lo, *hi; /* ranges of the parameters */
     double total;          /* shift of all parameters and both bodies together; length */
     double apart;          /* the bodies are so far apart, at least; length */
+    double t_start, t_end; /* the times of its bounds */
     bool follows_time;
 } survey_view;
 imp_code survey_measure(imp_survey *s, const survey_box *box, size_t left_out, double t_start,
                         double t_end, survey_view *view, imp_error *error);
+
+/* Makes the spread of the box that was measured last, of two bodies. It is to be cleared in any
+ * case. */
+imp_code survey_spread_make(imp_survey *s, const survey_box *box, const survey_view *view,
+                            query_spread *to, imp_error *error);
+void survey_spread_clear(query_spread *spread);
 
 /* Adds the first box of each pair. */
 imp_code survey_add_roots(imp_survey *s, imp_error *error);

@@ -75,7 +75,7 @@ imp_code survey_measure(imp_survey *s, const survey_box *box, size_t left_out, d
         s->at[j] = scene_parameter_middle(lo[j], hi[j]);
         s->shift[0][j] = 0;
     }
-    *view = (survey_view){.lo = lo, .hi = hi};
+    *view = (survey_view){.lo = lo, .hi = hi, .t_start = t_start, .t_end = t_end};
     if (pair->body[0] == SURVEY_ALL_BODIES) return IMP_SUCCESS;
     const value_box values = {s->count, lo, hi, s->at, t_start, t_end};
     for (int side = 0; side < 2; ++side) {

@@ -109,11 +109,11 @@ in_parts() {
 
 @test "a run goes on from the boxes that another left, to the same answer and boxes" {
     arms >arms.json
-    in_parts '--max-boxes 9' "$IMPINGE" solve arms.json --gamma 0.09
-    in_parts '--max-boxes 40' "$IMPINGE" clearance arms.json --require 0.095
+    in_parts '--max-boxes 6' "$IMPINGE" solve arms.json --gamma 0.09
+    in_parts '--max-boxes 12' "$IMPINGE" clearance arms.json --require 0.095
     in_parts '--max-boxes 30' "$IMPINGE" clearance arms.json --tolerance 0.1
     arms 2.9 '0,0],[-0.3,0,0' >arms.json # their shafts come nearer: a contact in time
-    in_parts '--max-boxes 500' "$IMPINGE" solve arms.json --gamma 0.05
+    in_parts '--max-boxes 150' "$IMPINGE" solve arms.json --gamma 0.05
 }
 
 @test "a box that a limit interrupts is asked again, so that nothing changes" {

@@ -20,7 +20,7 @@ setup() {
 
 @test "a distance is kept with every joint of an arm half a degree off" {
     run -0 "$IMPINGE" clearance "$data/arm_off.json" --require 5 --json
-    json '.verdict == "holds" and .stats.pairs < 100000'
+    json '.verdict == "holds" and .stats.pairs < 2390' # ten times those of the exact motion
 }
 
 @test "a hinge that is a millimetre off leaves room, and three do not" {

@@ -4,6 +4,8 @@
 
 #include <math.h>
 
+#include "core/scene/scene.h"
+#include "core/surface/surface_spread.h"
 #include "tests/support/query_helpers.h"
 #include "tests/support/suite.h"
 
@@ -485,6 +487,29 @@ static double sampled(const imp_scene *scene, const double *values, double t)
     return least;
 }
 
+/* The least distance of both bodies at some values during the times of a box, from above. */
+static double searched(const imp_scene *scene, const double *values, const told_box *box)
+{
+    imp_error error;
+    imp_clearance near = {.struct_size = sizeof near};
+    imp_scene *at = imp_scene_at(scene, values, &error);
+    ck_assert_msg(at != NULL, "%s", error.text);
+    imp_options options = imp_options_default(at);
+    options.t_start = box->time[0], options.t_end = box->time[1];
+    options.max_pairs = 3000;
+    imp_clearance_options asked = imp_clearance_options_default();
+    asked.tolerance = 0.01;
+    imp_query *query = imp_clearance_new(at, &options, &asked, &error);
+    ck_assert_msg(query != NULL, "%s", error.text);
+    ck_assert_int_eq(imp_query_step(query, 0, &error), IMP_SUCCESS);
+    ck_assert_int_eq(imp_clearance_get(query, 0, &near, &error), IMP_SUCCESS);
+    imp_query_free(query);
+    imp_scene_free(at);
+    return near.upper;
+}
+
+enum { SEARCH_EVERY = 8 }; /* boxes of which one is searched, too */
+
 static void check_box(uint64_t *r, const imp_scene *scene, const told_box *box, const char *text)
 {
     double values[PARAMETERS];
@@ -493,9 +518,46 @@ static void check_box(uint64_t *r, const imp_scene *scene, const told_box *box, 
     for (int j = 0; j < PARAMETERS; ++j)
         values[j] = at_corner ? (corner >> j & 1 ? box->hi[j] : box->lo[j])
                               : random_between(r, box->lo[j], box->hi[j]);
-    const double t = random_between(r, box->time[0], box->time[1]), d = sampled(scene, values, t);
+    const double t = random_between(r, box->time[0], box->time[1]);
+    const double d = random_fraction(r) < 1. / SEARCH_EVERY ? searched(scene, values, box)
+                                                            : sampled(scene, values, t);
     ck_assert_msg(d >= box->lower, "%.17g at %.17g, %.17g, %.17g, t %.17g, but %.17g is proved: %s",
                   d, values[0], values[1], values[2], t, box->lower, text);
+}
+
+/* Asks for the earliest contact, for a requirement, or for a bracket. */
+static void survey_for_boxes(uint64_t *r, imp_scene *scene, int kind, told_boxes *boxes)
+{
+    imp_survey_options how = imp_survey_options_default();
+    imp_clearance_options asked = imp_clearance_options_default();
+    boxes->count = boxes->seen = 0;
+    boxes->random = r;
+    how.sink = keep_box;
+    how.sink_context = boxes;
+    how.max_boxes = 60;
+    asked.tolerance = 0.2;
+    asked.decide = kind == 1;
+    asked.required = kind == 1 ? random_between(r, 0.01, 1) : 0;
+    survey(scene, 0.02, kind == 0 ? NULL : &asked, &how);
+}
+
+/* Two bodies at random; the ranges of their parameters are in lo and hi. */
+static imp_scene *random_scene(uint64_t *r, double wide, char *text, size_t size, double *lo,
+                               double *hi)
+{
+    const double ends[PARAMETERS][2] = {
+        {-wide, 0.5 * wide}, {0.7 - 0.5 * wide, 0.7 + 0.5 * wide}, {-0.4 * wide, 0.4 * wide}};
+    snprintf(text, size, "{'parameters':{");
+    for (int j = 0; j < PARAMETERS; ++j) {
+        lo[j] = ends[j][0], hi[j] = ends[j][1];
+        snprintf(text + strlen(text), size - strlen(text), "'p%d':[%.17g,%.17g]%s", j, lo[j], hi[j],
+                 j < PARAMETERS - 1 ? "," : "},'bodies':[");
+    }
+    add_body(r, text, size, 0);
+    strcat(text, ",");
+    add_body(r, text, size, random_between(r, 1, 4));
+    strcat(text, "]}");
+    return scene_of(text);
 }
 
 START_TEST(no_sample_is_nearer_than_what_is_proved_of_its_box)
@@ -504,24 +566,196 @@ START_TEST(no_sample_is_nearer_than_what_is_proved_of_its_box)
     static told_boxes boxes;
     const int scenes = suite_times(12);
     for (int n = 0; n < scenes; ++n) {
-        char text[4000] = "{'parameters':{'p0':[-1,0.5],'p1':[0.2,1.2],'p2':[-0.4,0.4]},'bodies':[";
-        add_body(&random, text, sizeof text, 0);
-        strcat(text, ",");
-        add_body(&random, text, sizeof text, random_between(&random, 1, 4));
-        strcat(text, "]}");
-        imp_scene *scene = scene_of(text);
-        imp_survey_options how = imp_survey_options_default();
-        boxes.count = boxes.seen = 0;
-        boxes.random = &random;
-        how.sink = keep_box;
-        how.sink_context = &boxes;
-        how.max_boxes = 60;
-        imp_clearance_options asked = imp_clearance_options_default();
-        asked.tolerance = 0.2;
-        survey(scene, 0.02, n % 2 == 0 ? NULL : &asked, &how);
+        char text[4000];
+        double lo[PARAMETERS], hi[PARAMETERS];
+        imp_scene *scene =
+            random_scene(&random, n % 2 == 0 ? 1 : random_between(&random, 0.02, 0.3), text,
+                         sizeof text, lo, hi);
+        survey_for_boxes(&random, scene, n % 3, &boxes);
         for (size_t k = 0; k < boxes.count; ++k) check_box(&random, scene, &boxes.at[k], text);
         imp_scene_free(scene);
     }
+}
+END_TEST
+
+/* The least distance of both bodies, from above, at the corners of the whole box and at values
+ * inside. */
+static double nearest_of_values(uint64_t *r, const imp_scene *scene, const double *lo,
+                                const double *hi)
+{
+    told_box box = {.time = {0, 1}};
+    double least = INFINITY;
+    for (int k = 0; k < 12; ++k) {
+        double values[PARAMETERS];
+        for (int j = 0; j < PARAMETERS; ++j)
+            values[j] = k < 8 ? (k >> j & 1 ? hi[j] : lo[j]) : random_between(r, lo[j], hi[j]);
+        const double d = searched(scene, values, &box);
+        if (d < least) least = d;
+    }
+    return least;
+}
+
+/* Where some values are known to bring the bodies nearer than what is required, all bounds of the
+ * box that holds them are tried at their limit. */
+START_TEST(what_some_values_violate_is_never_proved)
+{
+    uint64_t random = suite_seed() + 1000 + (uint64_t)_i;
+    const int scenes = suite_times(20);
+    for (int n = 0; n < scenes; ++n) {
+        char text[4000];
+        double lo[PARAMETERS], hi[PARAMETERS];
+        imp_scene *scene =
+            random_scene(&random, random_between(&random, 0.02, 0.6), text, sizeof text, lo, hi);
+        imp_clearance_options asked = imp_clearance_options_default();
+        imp_survey_options how = imp_survey_options_default();
+        how.max_boxes = 100;
+        asked.decide = true;
+        asked.required = 1.0001 * nearest_of_values(&random, scene, lo, hi);
+        if (asked.required > 0.01) {
+            const answer found = survey(scene, 1e-3, &asked, &how);
+            ck_assert_msg(found.near.verdict != IMP_REQUIREMENT_HOLDS, "%.17g is not kept: %s",
+                          asked.required, text);
+        }
+        imp_scene_free(scene);
+    }
+}
+END_TEST
+
+/* --- What the way of a point does not tell ---------------------------------------------------- */
+
+/* The spread of the first body, whose room is `maps`. False: nothing is known. */
+static bool spread_of(const imp_scene *scene, const value_box *box, spread_map *maps,
+                      surface_spread *spread)
+{
+    const surface *of = scene_surface(scene, 0, 0);
+    surface_extent extent;
+    surface_image image;
+    map_reach reaches[SPREAD_MAPS_MAX];
+    double shift[PARAMETERS];
+    *spread = (surface_spread){.maps = maps};
+    ck_assert_int_eq(surface_extent_find(of, box, &extent), IMP_STATUS_OK);
+    ck_assert_int_eq(surface_shift_trace(of, &extent, 0, box, shift, &image, reaches),
+                     IMP_STATUS_OK);
+    return image.lo[0] > -INFINITY &&
+           surface_spread_make(of, &extent, 0, box, SIZE_MAX, reaches, spread);
+}
+
+static void eval_at(const imp_scene *scene, const double *values, const double *p, double *x)
+{
+    imp_error error;
+    imp_scene *at = imp_scene_at(scene, values, &error);
+    ck_assert_msg(at != NULL, "%s", error.text);
+    ck_assert_int_eq(imp_piece_eval(at, (imp_place){0, 0, 0}, 1, p, x, NULL, NULL), IMP_SUCCESS);
+    imp_scene_free(at);
+}
+
+/* A point is where its way and the rest say, at any values and any time near the moment at which
+ * the way of another point was asked for. */
+static void check_way(uint64_t *r, const imp_scene *scene, const surface_spread *spread,
+                      const value_box *box, const char *text)
+{
+    double lo[3], hi[3], values[PARAMETERS], part[PARAMETERS], way[PARAMETERS][4] = {{0}};
+    double z[3], x[3], from[3], to[3], left[3], rest = 0;
+    imp_piece_domain(scene, (imp_place){0, 0, 0}, lo, hi);
+    spread_place place = {.t = random_between(r, 0, 1), .half = random_between(r, 0, 0.1)};
+    const double near = random_fraction(r) < 0.5 ? 0 : 0.1;
+    const double u = random_between(r, lo[0], hi[0]), v = random_between(r, lo[1], hi[1]);
+    const double p[3] = {u, v, place.t},
+                 q[3] = {u + near * random_fraction(r) * (hi[0] - u), v, place.t},
+                 later[3] = {q[0], v, place.t + place.half * suite_end_or_inside(r)};
+    for (int j = 0; j < PARAMETERS; ++j) {
+        part[j] = suite_end_or_inside(r);
+        values[j] = box->at[j] + part[j] * 0.5 * (box->hi[j] - box->lo[j]) * (1 - 1e-12);
+    }
+    eval_at(scene, box->at, p, z);
+    eval_at(scene, box->at, q, x);
+    eval_at(scene, box->at, later, from);
+    eval_at(scene, values, later, to);
+    memcpy(place.at, z, sizeof z);
+    place.radius = query_distance(x, z) * (1 + 1e-12);
+    if (!surface_spread_at(spread, scene_surface(scene, 0, 0), &place, 1, way, &rest)) return;
+    for (int i = 0; i < 3; ++i) {
+        left[i] = to[i] - from[i];
+        for (int j = 0; j < PARAMETERS; ++j) left[i] -= part[j] * way[j][i];
+    }
+    const double off = query_distance(left, (const double[3]){0, 0, 0});
+    ck_assert_msg(off <= rest + 1e-9, "off by %.17g, more than %.17g: %s", off, rest, text);
+}
+
+START_TEST(points_are_where_their_ways_say)
+{
+    uint64_t random = suite_seed() + 2000 + (uint64_t)_i;
+    const int scenes = suite_times_at_least(60);
+    int known = 0;
+    for (int n = 0; n < scenes; ++n) {
+        char text[4000];
+        double lo[PARAMETERS], hi[PARAMETERS], at[PARAMETERS];
+        spread_map maps[SPREAD_MAPS_MAX];
+        surface_spread spread;
+        imp_scene *scene =
+            random_scene(&random, random_between(&random, 0.001, 0.6), text, sizeof text, lo, hi);
+        for (int j = 0; j < PARAMETERS; ++j) at[j] = 0.5 * lo[j] + 0.5 * hi[j];
+        const value_box box = {PARAMETERS, lo, hi, at, -0.1, 1.1};
+        if (spread_of(scene, &box, maps, &spread)) {
+            ++known;
+            for (int k = 0; k < 8; ++k) check_way(&random, scene, &spread, &box, text);
+        }
+        imp_scene_free(scene);
+    }
+    ck_assert_int_gt(known, scenes / 3);
+}
+END_TEST
+
+/* Scenes in which values bring the bodies nearer than the middle of the box tells to first order:
+ * `nearest`, where they are so near, is at an end of p. Something follows time in each, so that no
+ * parameter takes its place. */
+typedef struct bent_scene {
+    const char *text;
+    double nearest;
+} bent_scene;
+
+#define WALL(NORMAL)                                                                               \
+    "{'surfaces':[{'type':'plane'," NORMAL "}],'maps':[{'type':'translate','velocity':[0,0,0.001]" \
+    "}]}]}"
+#define TURNED "{'type':'rotate','axis':[0,0,1],'rate':1,'clock':'p'}"
+
+static const bent_scene bent[] = {
+    /* a ball moves across the wall's normal, on a circle: nearer by 1 - cos p */
+    {"{'parameters':{'p':[-0.3,0.3]},'bodies':[{'surfaces':[{'type':'sphere','radius':0.1,"
+     "'center':[1,0,0]}],'maps':[" TURNED
+     "]}," WALL("'origin':[0.6,-2,-2],'edge_u':[0,4,0],'edge_v':[0,0,4]"),
+     0.95533648912560598 - 0.7},
+    /* a ball leaves the axis in time, so that it is moved farther later: by (1 + t) sin p */
+    {"{'parameters':{'p':[-0.1,0.1]},'bodies':[{'surfaces':[{'type':'sphere','radius':0.1,"
+     "'center':[1,0,0]}],'maps':[{'type':'translate','velocity':[1,0,0]}," TURNED
+     "]}," WALL("'origin':[-4,0.5,-2],'edge_u':[8,0,0],'edge_v':[0,0,4]"),
+     0.4 - 2 * 0.099833416646828155},
+    /* the far end of a plate is moved farther than its middle: a ball above x = 2 */
+    {"{'parameters':{'p':[-0.1,0.1]},'bodies':[{'surfaces':[{'type':'plane','origin':[0,0,-1],"
+     "'edge_u':[3,0,0],'edge_v':[0,0,2]}],'maps':[" TURNED
+     "]},{'surfaces':[{'type':'sphere','radius':0.1,'center':[2,0.5,0]}],'maps':[{'type':"
+     "'translate','velocity':[0,0,0.001]}]}]}",
+     0.5 * 0.99500416527802576 - 2 * 0.099833416646828155 - 0.1},
+    /* a ball turns in time, too, and its way with it: towards the wall at first, then along it */
+    {"{'parameters':{'p':[-0.05,0.05]},'bodies':[{'surfaces':[{'type':'sphere','radius':0.1,"
+     "'center':[1,0,0]}],'maps':[" TURNED ",{'type':'rotate','axis':[0,0,1],'rate':-2}"
+     "]}," WALL("'origin':[-4,0.5,-2],'edge_u':[8,0,0],'edge_v':[0,0,4]"),
+     0.4 - 0.049979169270678331},
+};
+
+START_TEST(what_bends_the_ways_of_points_is_counted)
+{
+    const double nearest = bent[_i].nearest;
+    imp_scene *scene = scene_of(bent[_i].text);
+    imp_clearance_options asked = imp_clearance_options_default();
+    asked.decide = true;
+    asked.required = nearest * 1.001;
+    answer found = survey(scene, 1e-3, &asked, NULL);
+    ck_assert_int_eq(found.near.verdict, IMP_REQUIREMENT_VIOLATED);
+    asked.required = nearest * 0.99;
+    found = survey(scene, 1e-3, &asked, NULL);
+    ck_assert_int_eq(found.near.verdict, IMP_REQUIREMENT_HOLDS);
+    imp_scene_free(scene);
 }
 END_TEST
 
@@ -677,6 +911,10 @@ int main(void)
     tcase_add_test(tcase, the_clock_time_changes_no_bit);
     tcase_add_test(tcase, a_scene_at_values_stands_where_time_would_put_it);
     tcase_add_loop_test(tcase, no_sample_is_nearer_than_what_is_proved_of_its_box, 0, 4);
+    tcase_add_loop_test(tcase, what_some_values_violate_is_never_proved, 0, 4);
+    tcase_add_loop_test(tcase, points_are_where_their_ways_say, 0, 2);
+    tcase_add_loop_test(tcase, what_bends_the_ways_of_points_is_counted, 0,
+                        (int)(sizeof bent / sizeof *bent));
     tcase_add_loop_test(tcase, wrong_clocks_and_parameters_are_refused, 0,
                         (int)(sizeof wrong / sizeof *wrong));
     tcase_add_test(tcase, more_parameters_than_a_search_can_handle_are_refused);
