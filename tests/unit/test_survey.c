@@ -425,10 +425,21 @@ static void add_map(uint64_t *r, char *text, size_t size, bool last)
     const size_t used = strlen(text);
     const char *clock = clocks[(int)(3.999 * random_fraction(r))];
     const double kind = random_fraction(r);
-    if (kind < 0.6)
+    if (kind < 0.5)
         snprintf(text + used, size - used,
                  "{'type':'rotate','axis':[%g,%g,%g],'rate':%g,'center':[%g,%g,%g],'clock':'%s'}%s",
                  random_between(r, -1, 1), random_between(r, -1, 1), random_between(r, 0.1, 1),
+                 random_between(r, -1, 1), random_between(r, -1, 1), random_between(r, -1, 1),
+                 random_between(r, -1, 1), clock, last ? "" : ",");
+    else if (kind < 0.6) /* by a table: its rate jumps */
+        snprintf(text + used, size - used,
+                 "{'type':'rotate','axis':[%g,%g,1],'times':[-2,%g,2],'angles':[%g,0,%g],"
+                 "'clock':'%s'}%s",
+                 random_between(r, -1, 1), random_between(r, -1, 1), random_between(r, -0.5, 1),
+                 random_between(r, -3, 3), random_between(r, -3, 3), clock, last ? "" : ",");
+    else if (kind < 0.7) /* along a parabola */
+        snprintf(text + used, size - used,
+                 "{'type':'translate','offset':[[0,0,0],[%g,0,%g],[%g,%g,0]],'clock':'%s'}%s",
                  random_between(r, -1, 1), random_between(r, -1, 1), random_between(r, -1, 1),
                  random_between(r, -1, 1), clock, last ? "" : ",");
     else if (kind < 0.8)
@@ -741,6 +752,30 @@ static const bent_scene bent[] = {
      "'center':[1,0,0]}],'maps':[" TURNED ",{'type':'rotate','axis':[0,0,1],'rate':-2}"
      "]}," WALL("'origin':[-4,0.5,-2],'edge_u':[8,0,0],'edge_v':[0,0,4]"),
      0.4 - 0.049979169270678331},
+    /* a ball moves straight towards the wall: all of it is of first order */
+    {"{'parameters':{'p':[-0.1,0.1]},'bodies':[{'surfaces':[{'type':'sphere','radius':0.1}],'maps':"
+     "["
+     "{'type':'translate','velocity':[0,1,0],'clock':'p'}"
+     "]}," WALL("'origin':[-4,0.5,-2],'edge_u':[8,0,0],'edge_v':[0,0,4]"),
+     0.3},
+    /* a ball turns within itself in the middle only: elsewhere it goes round */
+    {"{'parameters':{'p':[-0.1,0.1]},'bodies':[{'surfaces':[{'type':'sphere','radius':0.1}],'maps':"
+     "["
+     "{'type':'translate','velocity':[1,0,0],'clock':'p'},{'type':'rotate','axis':[0,0,1],'rate':2}"
+     "]},{'surfaces':[{'type':'plane','origin':[-4,0.5,-2],'edge_u':[8,0,0],'edge_v':[0,0,4]}]}]}",
+     0.3},
+    /* a sheet rises with the parameter by itself, not by a map */
+    {"{'parameters':{'p':[-0.1,0.1]},'bodies':[{'surfaces':[{'type':'formula','y':'t','z':'v - "
+     "0.5',"
+     "'clock':'p'}],'maps':[{'type':'translate','velocity':[0.001,0,0]}"
+     "]}," WALL("'origin':[-4,0.5,-2],'edge_u':[8,0,0],'edge_v':[0,0,4]"),
+     0.4},
+    /* a sheet leaves the axis in time by itself, so that it is moved farther later */
+    {"{'parameters':{'p':[-0.1,0.1]},'bodies':[{'surfaces':[{'type':'formula','x':'1 + "
+     "t','y':'0.1*u',"
+     "'z':'v'}],'maps':[" TURNED
+     "]}," WALL("'origin':[-4,0.5,-2],'edge_u':[8,0,0],'edge_v':[0,0,4]"),
+     0.5 - 2 * 0.099833416646828155 - 0.1 * 0.99500416527802576},
 };
 
 START_TEST(what_bends_the_ways_of_points_is_counted)
