@@ -45,7 +45,8 @@ __attribute__((format(printf, 2, 3))) static void put(file *f, const char *forma
     if (size > 0) put_bytes(f, text, (size_t)size < sizeof text ? (size_t)size : sizeof text - 1);
 }
 
-/* Seven bits a byte, the lowest first; all but the last with the high bit. */
+/* Writes a number as bytes of seven bits, the lowest first; all but the last byte have the high bit
+ * set. */
 static void put_count(file *f, size_t n)
 {
     for (; n >= 128; n >>= 7) put_bytes(f, &(uint8_t){(uint8_t)(n | 128)}, 1);
@@ -119,7 +120,8 @@ static size_t number_of(const file *f, const shared_instance *p)
     return k;
 }
 
-/* A chain is a surface: its type's instance, then its maps' in order. */
+/* Writes a chain, which is a surface: the number of its type's instance, then those of its maps in
+ * order. */
 static imp_code put_chain(file *f, size_t body, const surface *s, imp_error *error)
 {
     const size_t maps = surface_map_count(s);
@@ -152,7 +154,7 @@ static imp_code put_scene(file *f, imp_error *error)
 
 /* --- Trees ------------------------------------------------------------------------------------ */
 
-/* The order of the pieces in the candidate's clusters; 0: none. */
+/* Writes the order of the pieces in the candidate's clusters; 0: it has none. */
 static void put_order(file *f, const candidate *c)
 {
     const node *root = c != NULL ? tree_root(c->tree) : NULL;
@@ -194,7 +196,7 @@ static bool is_pair(const candidate_pair *p, const size_t body[2], const size_t 
            p->side[0]->surface == at[0] && p->side[1]->surface == at[1];
 }
 
-/* Candidate pairs stand in the order of the scene. */
+/* Compares two candidate pairs by the order of their surfaces in the scene. */
 static void put_trees(file *f, const proof_trees *trees)
 {
     const candidate_list *list = f->search->list;

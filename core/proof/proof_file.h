@@ -6,7 +6,9 @@
 #include "core/broad_phase/candidates.h"
 #include "core/proof/proof_tree.h"
 
-/* Certificates: what is claimed, in formulas, and the trees that prove it (CERTIFICATE.md) */
+/* Writing certificates
+ * ====================
+ * A certificate states a claim in formulas and holds the trees that prove it (CERTIFICATE.md). */
 
 /* A point of a surface; the piece is 0 where the surface is not divided. */
 typedef struct proof_point {
@@ -16,20 +18,21 @@ typedef struct proof_point {
 
 typedef struct proof_claim {
     const char *verdict; /* one word, what the program answered */
-    double apart;        /* nothing is nearer, >= 0; length */
-    double from, to;     /* at any of these times, both included */
-    bool has_points;
-    proof_point point[2]; /* at time t are no farther apart than */
-    double t, within;     /* this; length */
+    double apart;        /* no points of two bodies are nearer than this; >= 0, length */
+    double from, to;     /* at no time from `from` to `to`, both included */
+    bool has_points;     /* the following are claimed, too */
+    proof_point point[2];
+    double t, within; /* at time t the two points are at most this far apart; length */
 } proof_claim;
 
-/* What a search has kept of itself. */
+/* What the file is written from: a search's candidate pairs, and the log of its steps. */
 typedef struct proof_search {
     const candidate_list *list;
     const proof_log *log;
 } proof_search;
 
-/* Writes a certificate. `stated`: lines that name the sources, each with its end; NULL: none. */
+/* Writes a certificate. `stated`: lines that name the sources, each with its newline; NULL: none.
+ * IMP_ERROR_MEMORY, or as plugins fail to say their formulas. */
 imp_code proof_file_write(const imp_scene *scene, const proof_search *search,
                           const proof_claim *claim, const char *stated, const proof_sink *to,
                           imp_error *error);

@@ -92,7 +92,7 @@ static void put_leaf(writer *w, const proof_record *r)
     }
 }
 
-/* The reader computes the same double. */
+/* Returns the time at k / 65536 of a cell, as the program that reads the file computes it. */
 static double time_at(double lo, double hi, unsigned k) { return lo + (hi - lo) * (k / 65536.0); }
 
 /* Splits the cell at k / 65536 of its time, 0 < k < 65536, and returns where. */
@@ -107,7 +107,7 @@ static double part_of(double lo, double hi, double t) { return (t - lo) / (hi - 
 
 static void put_record(writer *w, uint32_t index, double lo, double hi);
 
-/* The last child of a record decides how it was divided: an earlier one was given up. */
+/* Returns how a record was divided: by its last child, since the search gave up earlier ones. */
 static uint32_t half_of(const writer *w, uint32_t index, int half)
 {
     const proof_trees *t = w->trees;

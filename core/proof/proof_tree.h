@@ -5,7 +5,10 @@
 
 #include "core/proof/proof_log.h"
 
-/* The trees of a certificate, in prefix order (CERTIFICATE.md) */
+/* The trees of a certificate
+ * ==========================
+ * A tree divides the cell of a candidate pair, its domains and times, until an axis separates the
+ * two surfaces in each part. It is written in prefix order (CERTIFICATE.md). */
 
 enum {
     PROOF_OP_SPLIT = 0, /* + 2 side + along: both halves follow, the lower first */
@@ -27,8 +30,8 @@ typedef struct proof_trees proof_trees;
 proof_trees *proof_trees_new(const proof_log *log);
 void proof_trees_free(proof_trees *trees);
 
-/* Writes the tree of a candidate pair over the times [lo, hi]. `rests`: the search looked at one
- * moment, for all of them. */
+/* Writes the tree of a candidate pair over the times [lo, hi]. `rests`: nothing moves, and the
+ * search examined one moment in place of all times. */
 void proof_trees_write(const proof_trees *trees, uint32_t candidate, double lo, double hi,
                        bool rests, const proof_sink *to);
 

@@ -12,7 +12,7 @@
 
 /* --- Points ----------------------------------------------------------------------------------- */
 
-/* A finite number of the range, the k-th of its two ends where these are finite. */
+/* Returns end k of a range, 0 or 1; where that is infinite, a finite number of the range. */
 static double end_of(double lo, double hi, int k)
 {
     const double inner = lo > -INFINITY ? lo : hi < INFINITY ? hi : 0;

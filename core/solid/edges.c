@@ -86,7 +86,7 @@ int edge_compare(const edges *e, size_t i, size_t j)
 }
 
 /* The nearest point of edge j to x between its points a and b (numbers, not whole), by golden
- * section. Answers its distance, and its number in *where. */
+ * section. Returns its distance, and sets *where to its number. */
 static double refine(const edges *e, size_t j, double a, double b, vec3 x, double *where)
 {
     const double ratio = 0.6180339887498949;
@@ -115,7 +115,7 @@ static double refine(const edges *e, size_t j, double a, double b, vec3 x, doubl
     return least;
 }
 
-/* The direction of an edge at its point number k, which need not be whole. */
+/* Returns the direction of an edge at its point number k, which need not be whole. */
 static vec3 direction_at(const edges *e, size_t i, double k)
 {
     const vec3 *x = edge_points(e, i);
@@ -124,8 +124,8 @@ static vec3 direction_at(const edges *e, size_t i, double k)
     return vec3_sub(x[after], x[before]);
 }
 
-/* The point number of edge j that is nearest to x, among those farther than one step from `but`;
- * -1: there is none. */
+/* Returns the number of the point of edge j that is nearest to x, among those farther than one step
+ * from number `but`; -1: there is none. */
 static int nearest_number(const edges *e, size_t j, vec3 x, int but)
 {
     const vec3 *y = edge_points(e, j);
@@ -136,8 +136,8 @@ static int nearest_number(const edges *e, size_t j, vec3 x, int but)
     return best;
 }
 
-/* How far x is from edge j near its point number n; *where: the number of the nearest place.
- * Distances of more than four steps are not refined. */
+/* Returns the distance of x from edge j near its point number n, and sets *where to the number of
+ * the nearest place. A distance of more than four steps is not refined. */
 static double distance_near(const edges *e, size_t j, int n, vec3 x, double *where)
 {
     const vec3 *y = edge_points(e, j);
@@ -172,7 +172,8 @@ typedef struct cells {
     size_t buckets;       /* a power of 2 */
 } cells;
 
-/* Counted from the first point of all, so that numbers stay small wherever the body is. */
+/* Returns a point's cell. Cells are counted from the first point of all edges, so that their
+ * numbers stay small wherever the body is. */
 static int64_t cell_number(const edges *e, vec3 x, int i, double shift)
 {
     return (int64_t)floor((x.x[i] - e->at[0].x[i] + shift) / (4 * e->slack));
@@ -209,7 +210,7 @@ static bool cells_fill(cells *c, const edges *e)
     return true;
 }
 
-/* The partners of one edge that were found. */
+/* How many partners of one edge were found, and one of them. */
 typedef struct partners {
     size_t count, first;
 } partners;

@@ -46,9 +46,10 @@ int edge_compare(const edges *e, size_t i, size_t j);
  * or -1; 0: it does not. Evaluates the patch. */
 int edge_passes(const edges *e, size_t i, int k, size_t j);
 
-/* For each edge that is no point: the other edge that is the same seam; SEAM_NONE: there is none;
- * SEAM_EVEN: there are several, and with it their number is even; SEAM_ODD: it is odd, so that the
- * patches cannot bound a volume. False: no memory. */
+/* Sets partner[i], for each edge i that is no point, to the one other edge along the same seam.
+ * SEAM_NONE: there is none. SEAM_EVEN, SEAM_ODD: there are several, and the seam has an even or an
+ * odd number of edges, i counted; where it is odd, the patches cannot bound a volume. False: no
+ * memory. */
 #define SEAM_NONE SIZE_MAX
 #define SEAM_EVEN (SIZE_MAX - 1)
 #define SEAM_ODD (SIZE_MAX - 2)

@@ -64,7 +64,7 @@ void inside_free(inside_search *s)
 
 /* --- Boxes ------------------------------------------------------------------------------------ */
 
-/* The models of all pieces of a surface at time t, from its hierarchy: pieces are many. */
+/* Bounds all pieces of a surface at time t by its hierarchy, since there may be many. */
 static imp_code include_pieces(const inside_search *s, size_t body, size_t index, double t,
                                imp_model model[3], imp_status *status, tree_growth *growth,
                                imp_error *error)
@@ -108,7 +108,7 @@ static imp_code include_surface(const inside_search *s, size_t body, size_t inde
     return surface_set_code(status, error);
 }
 
-/* Bounds what there is of a body at time t; an inverted box holds nothing. */
+/* Bounds the surfaces of a body that exist at time t; an inverted box: there are none. */
 static imp_code box_of(const inside_search *s, size_t body, double t, solid_box *box,
                        tree_growth *growth, imp_error *error)
 {
@@ -208,7 +208,7 @@ static imp_code judge_components(const holding *h, const solid_box *box, inside_
     return code;
 }
 
-/* Whether parts of `inner` are in the solid body `outer`, whose box is given. */
+/* Finds out whether parts of `inner` are in the solid body `outer`, whose box is given. */
 static imp_code look_into(inside_search *s, size_t outer, size_t inner, double t,
                           const solid_box *box, inside_answer *answer, imp_error *error)
 {

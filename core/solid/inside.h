@@ -14,16 +14,17 @@
 
 typedef struct inside_search inside_search;
 
-/* Where parts of one body that are nearer to each other than gamma_clear are on one side of the
- * other, and edges within gamma of each other are one seam. `from` and `to` are the times of the
- * query, whose trees are used for boxes. `watch` must outlive it. NULL: no memory. */
+/* What is asked. Parts of one body that are nearer to each other than gamma_clear count as being on
+ * one side of the other body; edges within gamma of each other count as one seam. `from` and `to`
+ * are the times of the query, whose trees give the boxes. `watch` must outlive the search. */
 typedef struct inside_plan {
     imp_scene *scene;
     double gamma, gamma_clear, from, to;
     const limit_watch *watch;
 } inside_plan;
-inside_search *inside_new(const inside_plan *plan);
-void inside_free(inside_search *s); /* NULL is none */
+
+inside_search *inside_new(const inside_plan *plan); /* NULL: no memory */
+void inside_free(inside_search *s);                 /* NULL is none */
 
 typedef enum inside_state {
     INSIDE_NOBODY,  /* unless surfaces of the two are nearer than gamma_clear then */
@@ -37,9 +38,10 @@ typedef struct inside_answer {
     imp_side side[2]; /* FOUND: of the two bodies, in the order asked for; the solid's u is NAN */
 } inside_answer;
 
-/* What trees it makes is added to *growth, and what it will need itself before that is taken, so
- * that the caller can end it. Fails where a body that is solid is not closed, with
- * IMP_ERROR_SCENE, and as plugins do. */
+/* Decides whether one of the two bodies is inside the other at time t. Adds to *growth the memory
+ * of the trees that it makes, and what it needs itself before it takes that, so that the caller can
+ * end the search. Fails where a body that is solid is not closed, with IMP_ERROR_SCENE, and as
+ * plugins do. */
 imp_code inside_find(inside_search *s, const size_t body[2], double t, inside_answer *answer,
                      tree_growth *growth, imp_error *error);
 

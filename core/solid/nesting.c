@@ -44,7 +44,7 @@ static double size_of(const solid_box *box)
     return most;
 }
 
-/* Halves of a region along the relatively wider parameter. */
+/* Halves a region along the parameter, u or v, that is the wider part of its domain. */
 static bool parameter_of(const piece_of *x, parameter *j)
 {
     const double u = x->region.d[0] / (x->p->hi[0] - x->p->lo[0]);
@@ -80,7 +80,7 @@ static bool planes_part(const piece_of *a, const piece_of *b)
     return false;
 }
 
-/* *apart stays true where all points of both are shown to differ. */
+/* Sets *apart to false unless all points of the one are shown to differ from all of the other. */
 static imp_code part_pieces(parting *w, const piece_of *a, const piece_of *b, bool *apart)
 {
     if (!*apart || solid_boxes_apart(&a->box, &b->box) || planes_part(a, b)) return IMP_SUCCESS;
@@ -142,7 +142,7 @@ typedef enum nesting { NESTING_UNKNOWN, NESTING_INSIDE, NESTING_NOT } nesting;
 /* Points of each patch, in rows, and of a shell, that are held against another shell. */
 enum { ROWS = 5, POINTS_MAX = 1000 };
 
-/* What points of one shell tell about their place in another. */
+/* What is known of where shell x lies in shell y. */
 typedef struct comparison {
     const solid *s;
     size_t x, y; /* shells */

@@ -13,8 +13,8 @@
 
 #define COORDINATE_MAX 1e50 /* so that fifth powers do not overflow */
 
-/* Each coordinate is off by e_i at most: squares, two sums and a root, which is one rounding and
- * halves the others. */
+/* Returns a bound of the distance of points whose coordinates are off by at most e_i. Roundings:
+ * squares, two sums, and a root, which halves the relative errors before it and adds its own. */
 PAD_COVERS(8, 3);
 static double length_upper(const double *e)
 {

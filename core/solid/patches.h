@@ -26,7 +26,8 @@ typedef struct patches {
     bool bounded; /* domains are finite, and no point is farther than 1e50 away */
 } patches;
 
-/* Lists the patches; free them in any case. Fails with IMP_ERROR_MEMORY, or as surface_eval. */
+/* Lists the patches; free them in any case. Fails with IMP_ERROR_MEMORY, or as surface_eval
+ * fails. */
 imp_code solid_patches_read(patches *p, const imp_scene *scene, size_t body, double t,
                             imp_error *error);
 void solid_patches_free(patches *p);
@@ -44,7 +45,7 @@ imp_code patch_eval(const patch *p, double t, size_t n, const double (*uv)[2], v
  * k to corner k + 1. */
 void patch_corner(const patch *p, int k, double at[2]);
 
-/* The fraction k / n of the way; both ends are met exactly. */
+/* Returns the number at k / n of the way; both ends are met exactly. */
 static inline double patch_between(double from, double to, int k, int n)
 {
     return k == n ? to : from + (to - from) * k / n;

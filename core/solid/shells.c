@@ -73,8 +73,8 @@ static bool join_at_seam(joining *j, size_t i, size_t other, int direction)
     return join(&j->l, i / 4, other / 4, -direction);
 }
 
-/* Joins what runs along the point k of edge i. False: nothing does. Of many edges only those
- * without a partner are looked at. */
+/* Joins the patches of the edges that run along point k of edge i. False: none does. In a body of
+ * many edges only those without a partner are tried. */
 static bool join_at_point(joining *j, size_t i, int k)
 {
     const edges *e = j->e;

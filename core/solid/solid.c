@@ -96,7 +96,7 @@ static imp_code make_boxes(solid *s, imp_error *error)
     return IMP_SUCCESS;
 }
 
-/* Finds the shells, once. */
+/* Finds the shells, if that was not done before. */
 static imp_code read_shells(solid *s, imp_error *error)
 {
     if (s->is_read) return IMP_SUCCESS;
@@ -112,7 +112,7 @@ static imp_code read_shells(solid *s, imp_error *error)
 
 /* --- How often a shell winds around a point --------------------------------------------------- */
 
-/* Sums up patches with sign: of one shell, or of all for shell SIZE_MAX. */
+/* Sums up the signed solid angles of the patches of one shell, or of all shells: SIZE_MAX. */
 static imp_code sum_up(const solid *s, size_t shell, const winding_view *view, winding_sum *sum,
                        imp_error *error)
 {
@@ -214,7 +214,7 @@ static imp_code refuse(const solid *s, vec3 x, imp_error *error)
 
 /* --- On which side? --------------------------------------------------------------------------- */
 
-/* The shells around a point. */
+/* Lists the shells that wind around a point. */
 typedef struct enclosing {
     size_t *shell, *depth;
     size_t count;

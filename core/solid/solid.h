@@ -19,13 +19,13 @@ typedef struct solid solid;
 typedef enum solid_side {
     SOLID_OUTSIDE,
     SOLID_INSIDE,
-    SOLID_TOO_NEAR, /* to the surfaces, for models and points to tell */
+    SOLID_TOO_NEAR, /* the point is so near to the surfaces that rounding decides */
     SOLID_NOT_CLOSED
 } solid_side;
 
-/* Reads the body at time t; *made may be NULL where the scene has nothing of it at that time. Edges
- * within `slack` of each other are one seam. Whether it is closed is only known when asked for
- * sides. Both must outlive it: the scene and the watch. */
+/* Reads the body at time t; *made is NULL if no surface of it exists then. Edges within `slack` of
+ * each other are one seam. Whether the body is closed is found out by the first solid_side_of. The
+ * scene and the watch must outlive the result. */
 imp_code solid_new(const imp_scene *scene, size_t body, double t, double slack,
                    const limit_watch *watch, solid **made, imp_error *error);
 void solid_free(solid *s); /* NULL is none */
@@ -35,8 +35,8 @@ void solid_free(solid *s); /* NULL is none */
 size_t solid_bytes(size_t count);
 
 /* Finds the side on which all points lie that are no farther than `off` from x. SOLID_NOT_CLOSED:
- * the surfaces bound no volume, as *error tells. *stopped: the watch ended it, and *side means
- * nothing. Fails as plugins do. */
+ * the surfaces bound no volume, as *error tells. *stopped: the watch ended it, and *side is
+ * not set. Fails as plugins do. */
 imp_code solid_side_of(solid *s, vec3 x, double off, solid_side *side, bool *stopped,
                        imp_error *error);
 

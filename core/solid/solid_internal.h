@@ -25,8 +25,8 @@ struct solid {
     solid_box *boxes; /* of each patch, then of each shell */
 };
 
-/* Whether x is in a shell: *times is how often the shell winds around all points within `off` of x.
- * *near: it is too near to tell. *number is the enclosure from which that is known. */
+/* The winding number of a shell around x: the enclosure number -+ error, and `times`, the integer
+ * in it, which holds for all points within `off` of x. is_near: x is too near for that. */
 typedef struct winding_number {
     double number, error;
     long times;
@@ -35,8 +35,9 @@ typedef struct winding_number {
 imp_code solid_wind(const solid *s, size_t shell, vec3 x, double off, winding_number *found,
                     imp_error *error);
 
-/* How many shells of the list each one of them is wholly inside of, counted along the longest
- * chain; `depth` has room for `count` numbers. *known false: of some two that cannot be told. */
+/* Sets depth[k] to the number of shells of the list that shell k is wholly inside of, counted along
+ * the longest chain of shells inside each other; `depth` has room for `count` numbers. *known:
+ * false if two of them could not be told inside or apart. */
 imp_code solid_depths(const solid *s, const size_t *shell, size_t count, size_t *depth, bool *known,
                       bool *stopped, imp_error *error);
 
@@ -45,7 +46,7 @@ imp_code solid_depths(const solid *s, const size_t *shell, size_t count, size_t 
 imp_code solid_include(const solid *s, const patch *p, const imp_region *region, imp_model model[3],
                        imp_error *error);
 
-/* The box that holds what has these models. */
+/* Sets *box to the ranges of the three models. */
 void solid_box_around(const imp_model model[3], solid_box *box);
 
 static inline bool solid_boxes_apart(const solid_box *a, const solid_box *b)

@@ -31,7 +31,7 @@ typedef struct part {
     const patch *p;
     winding_sum *sum;
     int sign;
-    unsigned work; /* regions looked at, in this patch */
+    unsigned work; /* regions of this patch examined so far */
     imp_error *error;
     /* of the current part: */
     double margin; /* points of its polygon are evaluated within this; length */
@@ -104,7 +104,7 @@ static void add_corner(part *w, vec3 at)
     solid_angle_add_error(&w->sum->seen, 2 * UNIT_ROUNDOFF * fabs(w->sum->seen.angle));
 }
 
-/* A stretch of the rim along parameter j, from one end of the region to the other. */
+/* A stretch of a part's rim, along parameter j, from one end of the region to the other. */
 typedef struct stretch {
     imp_region region; /* of no width but along j */
     int j;
