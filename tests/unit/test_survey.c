@@ -718,8 +718,8 @@ START_TEST(points_are_where_their_ways_say)
 END_TEST
 
 /* Scenes in which values bring the bodies nearer than the middle of the box tells to first order:
- * `nearest`, where they are so near, is at an end of p. Something follows time in each, so that no
- * parameter takes its place. */
+ * `nearest`, where they are so near, is at an end of p. Something follows time in nearly each, so
+ * that no parameter takes its place. */
 typedef struct bent_scene {
     const char *text;
     double nearest;
@@ -771,11 +771,27 @@ static const bent_scene bent[] = {
      "]}," WALL("'origin':[-4,0.5,-2],'edge_u':[8,0,0],'edge_v':[0,0,4]"),
      0.4},
     /* a sheet leaves the axis in time by itself, so that it is moved farther later */
-    {"{'parameters':{'p':[-0.1,0.1]},'bodies':[{'surfaces':[{'type':'formula','x':'1 + "
-     "t','y':'0.1*u',"
-     "'z':'v'}],'maps':[" TURNED
+    {"{'parameters':{'p':[-0.1,0.1]},'bodies':[{'surfaces':[{'type':'formula','x':'1 + t',"
+     "'y':'0.1*u','z':'0.1*v'}],'maps':[" TURNED
      "]}," WALL("'origin':[-4,0.5,-2],'edge_u':[8,0,0],'edge_v':[0,0,4]"),
      0.5 - 2 * 0.099833416646828155 - 0.1 * 0.99500416527802576},
+    /* a ball leaves the axis with a parameter that takes the place of time */
+    {"{'parameters':{'p':[-0.1,0.1],'q':[0,1]},'bodies':[{'surfaces':[{'type':'sphere','radius':0."
+     "1,"
+     "'center':[1,0,0]}],'maps':[{'type':'translate','velocity':[1,0,0],'clock':'q'}," TURNED
+     "]},{'surfaces':[{'type':'plane','origin':[-4,0.5,-2],'edge_u':[8,0,0],'edge_v':[0,0,4]}]}]}",
+     0.4 - 2 * 0.099833416646828155},
+    /* what one parameter moves off the axis the other one turns */
+    {"{'parameters':{'q':[-1,1],'p':[-0.3,0.3]},'bodies':[{'surfaces':[{'type':'sphere','radius':"
+     "0.1}],'maps':[{'type':'translate','velocity':[1,0,0],'clock':'q'}," TURNED
+     "]}," WALL("'origin':[-4,0.5,-2],'edge_u':[8,0,0],'edge_v':[0,0,4]"),
+     0.4 - 0.29552020666133957},
+    /* three parameters turn a ball about one axis */
+    {"{'parameters':{'q':[-0.2,0.2],'r':[-0.2,0.2],'p':[-0.2,0.2]},'bodies':[{'surfaces':[{'type':"
+     "'sphere','radius':0.01,'center':[1,0,0]}],'maps':[{'type':'rotate','axis':[0,0,1],'rate':1,"
+     "'clock':'q'},{'type':'rotate','axis':[0,0,1],'rate':1,'clock':'r'}," TURNED
+     "]}," WALL("'origin':[0.6,-2,-2],'edge_u':[0,4,0],'edge_v':[0,0,4]"),
+     0.82533561490967833 - 0.61},
 };
 
 START_TEST(what_bends_the_ways_of_points_is_counted)
@@ -791,6 +807,40 @@ START_TEST(what_bends_the_ways_of_points_is_counted)
     found = survey(scene, 1e-3, &asked, NULL);
     ck_assert_int_eq(found.near.verdict, IMP_REQUIREMENT_HOLDS);
     imp_scene_free(scene);
+}
+END_TEST
+
+/* Whether something is known of a ball under maps that p moves. */
+static bool knows_ways(const char *maps)
+{
+    char text[1000];
+    const double lo = -0.1, hi = 0.1, at = 0;
+    spread_map room[SPREAD_MAPS_MAX];
+    surface_spread spread;
+    snprintf(text, sizeof text,
+             "{'parameters':{'p':[-0.1,0.1]},'bodies':[{'surfaces':[{'type':'sphere'}],"
+             "'maps':[%s]}]}",
+             maps);
+    imp_scene *scene = scene_of(text);
+    const bool known = spread_of(scene, &(value_box){1, &lo, &hi, &at, 0, 1}, room, &spread);
+    imp_scene_free(scene);
+    return known;
+}
+
+/* A trajectory is rigid, but does not say that it turns exactly. */
+START_TEST(no_ways_are_known_of_maps_that_do_not_turn_exactly)
+{
+    static const char path[] =
+        "{'type':'trajectory','times':[-2,2],'positions':[[0,0,0],[1,0,0]]%s}";
+    char still[300], moving[300];
+    snprintf(moving, sizeof moving, path, ",'clock':'p'");
+    snprintf(still, sizeof still, "%s,", TURNED);
+    snprintf(still + strlen(still), sizeof still - strlen(still), path, "");
+    ck_assert(knows_ways(TURNED));
+    ck_assert(!knows_ways(moving));
+    ck_assert(!knows_ways(still));
+    ck_assert(!knows_ways(TURNED ",{'type':'scale','factor':2}"));
+    ck_assert(knows_ways("{'type':'scale','factor':2}," TURNED));
 }
 END_TEST
 
@@ -950,6 +1000,7 @@ int main(void)
     tcase_add_loop_test(tcase, points_are_where_their_ways_say, 0, 2);
     tcase_add_loop_test(tcase, what_bends_the_ways_of_points_is_counted, 0,
                         (int)(sizeof bent / sizeof *bent));
+    tcase_add_test(tcase, no_ways_are_known_of_maps_that_do_not_turn_exactly);
     tcase_add_loop_test(tcase, wrong_clocks_and_parameters_are_refused, 0,
                         (int)(sizeof wrong / sizeof *wrong));
     tcase_add_test(tcase, more_parameters_than_a_search_can_handle_are_refused);
