@@ -800,7 +800,7 @@ EXTRA_DIST += \
 
 # The parts of tools/test --all: half of all draws of property tests and the release in the first, a tenth
 # with sanitizers, which look for other faults than bounds. With clang the suites in C, which compare bits
-# and bounds, and which load no faulty plugin. With sanitizers also those scripts whose input reaches C in
+# and bounds. With sanitizers also those scripts whose input reaches C in
 # ways of its own: looks of pictures, pages, terminals, files, budgets and many processes are the first
 # part's. AddressSanitizer handles stack overflows and ends of threads itself, before the command can.
 all_suites = $(if $(filter $(script_suites),$(TESTS)),$(release_suites)) $(TESTS)
@@ -812,7 +812,7 @@ sanitized_suites = $(filter-out $(script_suites) \
 check-all:
 	IMPINGE_TEST_MULTIPLIER=$${IMPINGE_TEST_MULTIPLIER-0.5} $(MAKE) check TESTS='$(all_suites)'
 check-clang:
-	$(MAKE) check TESTS='$(clang_suites)' check_LTLIBRARIES=
+	$(MAKE) check TESTS='$(clang_suites)'
 check-sanitized:
 	IMPINGE_TEST_MULTIPLIER=$${IMPINGE_TEST_MULTIPLIER-0.1} $(MAKE) check TESTS='$(sanitized_suites)'
 

@@ -19,12 +19,12 @@ teardown_file() {
 }
 
 @test "the release builds, installs and uninstalls from a source folder that cannot be written" {
-    # These suites write caches, which clean must remove. They load none of the tests' plugins.
-    local suites='tests/unit/test_alloc_failure tests/unit/test_registry tests/cli/cli_list.bats'
+    # These suites write caches, which clean must remove. They load none of the faulty plugins.
+    local suites='tests/unit/test_query tests/cli/cli_list.bats'
     make -s -C "$build" distcheck TESTS="$suites" check_PROGRAMS="${suites% *}" check_LTLIBRARIES= \
         DISTCHECK_CONFIGURE_FLAGS=CFLAGS=-O0 >log 2>&1 ||
         { tail -n 15 log; false; }
-    [ "$(grep -c '^PASS: ' log)" -eq 3 ]
+    [ "$(grep -c '^PASS: ' log)" -eq 2 ]
     cp "$build"/impinge-*.tar.gz "$BATS_FILE_TMPDIR/first.tar.gz"
 }
 
