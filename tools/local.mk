@@ -31,6 +31,7 @@ tools_check = \
     tools/check/calls.c tools/check/calls.h \
     tools/check/closed.c tools/check/closed.h \
     tools/check/clearance_cost.c tools/check/clearance_cost.h \
+    tools/check/content.c tools/check/content.h \
     tools/check/cost.c tools/check/cost.h \
     tools/check/fate.c tools/check/fate.h \
     tools/check/distances.c tools/check/distances.h \
@@ -40,6 +41,7 @@ tools_check = \
     tools/check/formulas.c tools/check/formulas.h \
     tools/check/guard.c tools/check/guard.h \
     tools/check/inclusions.c tools/check/inclusions.h \
+    tools/check/job.c tools/check/job.h \
     tools/check/list.c tools/check/list.h \
     tools/check/motions.c tools/check/motions.h \
     tools/check/moving_point.c tools/check/moving_point.h \
@@ -54,10 +56,12 @@ tools_check = \
     tools/check/points.c tools/check/points.h \
     tools/check/poses.c tools/check/poses.h \
     tools/check/proof.c tools/check/proof.h \
+    tools/check/proof_text.c tools/check/proof_text.h \
     tools/check/purity.c tools/check/purity.h \
     tools/check/rates.c tools/check/rates.h \
     tools/check/remainders.c tools/check/remainders.h \
     tools/check/report.c tools/check/report.h \
+    tools/check/request.c tools/check/request.h \
     tools/check/sampling.c tools/check/sampling.h \
     tools/check/state.c tools/check/state.h \
     tools/check/stated_formula.c tools/check/stated_formula.h \
@@ -162,6 +166,7 @@ tools_view = \
     tools/view/film.c tools/view/film.h \
     tools/view/gap.c tools/view/gap.h \
     tools/view/glb.c \
+    tools/view/glb_buffer.c tools/view/glb_buffer.h \
     tools/view/html.c tools/view/html.h \
     tools/view/html_data.c tools/view/html_data.h \
     tools/view/legend.c tools/view/legend.h \

@@ -5,7 +5,6 @@
 #include "tools/check/list.h"
 
 #include <math.h>
-#include <stdio.h>
 #include <string.h>
 
 #include "tools/check/allocations.h"
@@ -26,7 +25,6 @@
 #include "tools/check/purity.h"
 #include "tools/check/rates.h"
 #include "tools/check/state.h"
-#include "tools/check/stated_formula.h"
 #include "tools/check/table.h"
 
 /* One of the three is set. */
@@ -210,121 +208,5 @@ child_fate check_run(const check_task *task, double seconds, check_answer *share
     shared->blamed = shared->calls;
     answer_fail_for(shared, FAULT_CRASH, "%s %s %s", type, fate_text_of(fate, seconds).text,
                     subject_call_text(&shared->call).text);
-    return fate;
-}
-
-/* --- The request ------------------------------------------------------------------------------ */
-
-static void try_type(const check_task *task, imp_registry *registry, const imp_type_info *info,
-                     check_misreading *m)
-{
-    const char *stage = task->stage[0] != NULL ? task->stage[0] : info->example;
-    imp_instance made = {NULL, NULL, NULL};
-    imp_error error;
-    const imp_code code = imp_instance_from_text(registry, info->kind, stage, &made, &error);
-    if (code == IMP_ERROR_SCENE && task->stage[0] != NULL)
-        snprintf(m->stage, sizeof m->stage, "%s", error.text);
-    else if (task->formula != NULL)
-        formula_free(
-            stated_formula(registry, info, stage, task->formula, m->formula, sizeof m->formula));
-    said_domain d;
-    if (m->stage[0] == '\0' && task->domain != NULL)
-        said_domain_read(&d, registry, info, stage, task->domain, m->domain, sizeof m->domain);
-    imp_instance_free(&made);
-}
-
-static void try_work(void *result, const void *data)
-{
-    const check_task *task = data;
-    imp_type_info info;
-    imp_registry *registry = imp_registry_from_file(task->file);
-    for (size_t i = 0; registry != NULL && imp_registry_type(registry, i, &info); ++i)
-        if (task->type == NULL || strcmp(info.name, task->type) == 0)
-            try_type(task, registry, &info, result);
-    imp_registry_free(registry);
-}
-
-void check_try(const check_task *task, double seconds, check_misreading *shared)
-{
-    memset(shared, 0, sizeof *shared);
-    child_run(try_work, shared, task, seconds); /* if the plugin fails here, its checks report it */
-}
-
-/* --- Survey ----------------------------------------------------------------------------------- */
-
-static void survey_work(void *result, const void *data)
-{
-    survey *s = result;
-    imp_type_info info;
-    imp_plugin_refusal refusal = {NULL, "memory ran out"};
-    imp_registry *registry = imp_registry_from_file(data);
-    if (registry == NULL || imp_registry_refusal(registry, 0, &refusal)) {
-        snprintf(s->reason, sizeof s->reason, "%s", refusal.reason);
-        return;
-    }
-    for (size_t i = 0; s->count < SURVEY_TYPES && imp_registry_type(registry, i, &info); ++i) {
-        survey_type *t = &s->type[s->count++];
-        t->kind = info.kind;
-        snprintf(t->name, sizeof t->name, "%s", info.name);
-        snprintf(t->stage[0], sizeof t->stage[0], "%s", info.example);
-    }
-    if (s->count > 0)
-        snprintf(s->plugin, sizeof s->plugin, "%s %s, %s", info.plugin, info.version, info.license);
-    snprintf(s->name, sizeof s->name, "%s", info.plugin);
-    snprintf(s->version, sizeof s->version, "%s", info.version);
-    s->is_taken = true;
-    imp_registry_free(registry);
-}
-
-typedef struct defaults {
-    const char *file;
-    size_t type; /* index in the survey */
-} defaults;
-
-/* Whether create takes the stage; else *fault says why. Without memory or a registry it is left to
- * the checks. */
-static bool works(const defaults *d, imp_type_kind kind, const char *stage, imp_error *fault)
-{
-    imp_instance made = {NULL, NULL, NULL};
-    imp_registry *registry = imp_registry_from_file(d->file);
-    const bool made_one = registry == NULL || imp_instance_from_text(registry, kind, stage, &made,
-                                                                     fault) == IMP_SUCCESS;
-    imp_instance_free(&made);
-    imp_registry_free(registry);
-    return made_one;
-}
-
-/* Removes the stages that create rejects: the type's name alone, if parameters are required; its
- * example, if that is wrong. */
-static void defaults_work(void *result, const void *data)
-{
-    const defaults *d = data;
-    survey_type *t = &((survey *)result)->type[d->type];
-    imp_error error;
-    if (t->stage[1][0] != '\0' && !works(d, t->kind, t->stage[1], &error)) t->stage[1][0] = '\0';
-    if (works(d, t->kind, t->stage[0], &error)) return;
-    char stage[sizeof t->stage[0]];
-    memcpy(stage, t->stage[0], sizeof stage);
-    snprintf(t->example_fault, sizeof t->example_fault, "'%.300s': %.600s", stage, error.text);
-    memcpy(t->stage[0], t->stage[1], sizeof t->stage[0]);
-    t->stage[1][0] = '\0';
-}
-
-/* If create crashes, its checks report it. */
-static void survey_stages(const char *file, double seconds, survey *s)
-{
-    for (size_t k = 0; k < s->count; ++k) {
-        survey_type *t = &s->type[k];
-        const defaults d = {file, k};
-        if (strcmp(t->stage[0], t->name) != 0) memcpy(t->stage[1], t->name, sizeof t->name);
-        child_run(defaults_work, s, &d, seconds);
-    }
-}
-
-child_fate check_survey(const char *file, double seconds, survey *shared)
-{
-    memset(shared, 0, sizeof *shared);
-    const child_fate fate = child_run(survey_work, shared, file, seconds);
-    if (fate.end == CHILD_DONE) survey_stages(file, seconds, shared);
     return fate;
 }

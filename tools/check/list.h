@@ -42,39 +42,4 @@ bool check_is_of_bounds(size_t check);
  * child_memory. */
 child_fate check_run(const check_task *task, double seconds, check_answer *shared);
 
-/* --- The request ------------------------------------------------------------------------------ */
-
-/* Why the request cannot be read, which is not a bug of the plugin; empty: it can be read. */
-typedef struct check_misreading {
-    char stage[1000], formula[1000], domain[1000];
-} check_misreading;
-
-/* Tries, in a child, the parameters in the task's first stage (NULL: none were given) and its
- * formula and domain, of the type of that name, or of all in the file. *shared is from
- * child_memory. */
-void check_try(const check_task *task, double seconds, check_misreading *shared);
-
-/* --- The content of a file -------------------------------------------------------------------- */
-
-enum { SURVEY_TYPES = 64 };
-
-typedef struct survey_type {
-    imp_type_kind kind;
-    char name[80];
-    char stage[CHECK_STAGES][800]; /* those that work; empty: none */
-    char example_fault[1000];      /* why the example does not; empty: it does */
-} survey_type;
-
-typedef struct survey {
-    bool is_taken;     /* the host accepts the file */
-    char reason[1000]; /* why not */
-    char plugin[200];  /* name, version, licence */
-    char name[80], version[80];
-    size_t count;
-    survey_type type[SURVEY_TYPES];
-} survey;
-
-/* Lists, in a child, what the host finds in the file. *shared is from child_memory. */
-child_fate check_survey(const char *file, double seconds, survey *shared);
-
 #endif
