@@ -112,6 +112,7 @@ tools_cli = \
     tools/cli/crash.c tools/cli/crash.h \
     tools/cli/crew.c tools/cli/crew.h \
     tools/cli/each.c tools/cli/each.h \
+    tools/cli/each_internal.h tools/cli/each_line.c \
     tools/cli/explain.c tools/cli/explain.h \
     tools/cli/file_lock.c tools/cli/file_lock.h \
     tools/cli/help_topics.c tools/cli/help_topics.h \
@@ -280,7 +281,10 @@ tools_libverify_la_SOURCES = \
     tools/verify/round.c tools/verify/round.h \
     tools/verify/shadow.c tools/verify/shadow.h \
     tools/verify/statement.c tools/verify/statement.h \
-    tools/verify/walk.c tools/verify/walk.h
+    tools/verify/statement_internal.h \
+    tools/verify/statement_stage.c \
+    tools/verify/walk.c tools/verify/walk.h \
+    tools/verify/words.c tools/verify/words.h
 tools_libverify_la_CPPFLAGS = $(AM_CPPFLAGS) -DPROOF_DOUBLE
 tools_libverify_la_LIBADD = $(MPFI_LIBS) -lm
 

@@ -35,8 +35,8 @@ static bool divides(const piece *p, const box3 *b, split *divide)
 
 /* Finds the part of a piece in which the whole box is. Lemma. Where there is none and no end of a
  * part is inside of the box, each part has at most a face in common with it; then neighbouring
- * boxes hold that face, since parts have a size (statement.c), or it is an end of the claim's times
- * (touches_end), or nothing is there. */
+ * boxes hold that face, since parts have a size (statement_stage.c), or it is an end of the claim's
+ * times (touches_end), or nothing is there. */
 static enclosed choose(const piece *p, const box3 *b, const part **found, split *divide)
 {
     for (size_t k = 0; k < p->count; ++k)

@@ -2,175 +2,27 @@
  * SPDX-License-Identifier: Apache-2.0 */
 #include <config.h>
 
-#include "tools/verify/statement.h"
+#include "tools/verify/statement_internal.h"
+#include "tools/verify/words.h"
 
-#include <errno.h>
-#include <math.h>
 #include <stdlib.h>
 #include <string.h>
 
-#include "core/common/array.h"
-
-enum { LINE_MAX_ = 1 << 24, PIECES_MAX = 1 << 24, PARTS_MAX = 1 << 16, STAGES_MAX = 64 };
-
-/* Room for one more item of a list; false: a fault. */
-#define GROW(IN, LIST, COUNT, ROOM)                                                                \
-    ((LIST) = grown(IN, (LIST), (COUNT), &(ROOM), sizeof *(LIST)), !input_is_refused(IN))
-
-static void *grown(input *in, void *list, size_t count, size_t *room, size_t size)
-{
-    void *made = array_reserve(list, count, room, size);
-    if (made == NULL) input_refuse(in, "memory ran out");
-    if (made != NULL && made != list)
-        memset((char *)made + count * size, 0, (*room - count) * size);
-    return made != NULL ? made : list;
-}
-
-/* --- Words ------------------------------------------------------------------------------------ */
-
-/* Takes the next word of a line; NULL: a fault. */
-static const char *word(input *in, char **rest)
-{
-    char *found = strsep(rest, " ");
-    if (found == NULL || *found == '\0') input_refuse(in, "a line is too short");
-    return found != NULL ? found : "";
-}
-
-static double number(input *in, char **rest)
-{
-    const char *text = word(in, rest);
-    char *end;
-    const double x = strtod(text, &end);
-    if (*end != '\0' || !isfinite(x)) input_refuse(in, "'%.40s' is no finite number", text);
-    return input_is_refused(in) ? 0 : x;
-}
-
-static uint64_t whole(input *in, char **rest, uint64_t below)
-{
-    const char *text = word(in, rest);
-    char *end;
-    const unsigned long long n = strtoull(text, &end, 10);
-    if (*end != '\0' || text[0] < '0' || text[0] > '9' || n >= below)
-        input_refuse(in, "'%.40s' is no number below %llu", text, (unsigned long long)below);
-    return input_is_refused(in) ? 0 : n;
-}
-
-static void copy(input *in, char *to, size_t room, const char *text)
-{
-    if (strlen(text) >= room)
-        input_refuse(in, "'%.40s' is too long", text);
-    else
-        strcpy(to, text);
-}
-
-/* --- Formulas --------------------------------------------------------------------------------- */
-
-static bool take_part(input *in, bool is_map, const formula_range said[FORMULA_VARIABLES], part *p)
-{
-    for (int j = 0; j < 3; ++j) {
-        const int variable = is_map && j == 2 ? 3 : j;
-        const formula_range *range = &said[variable];
-        p->lo[j] = range->is_said ? range->lo.lo : -INFINITY;
-        p->hi[j] = range->is_said ? range->hi.hi : INFINITY;
-        p->inner_lo[j] = range->is_said ? range->lo.hi : -INFINITY;
-        p->inner_hi[j] = range->is_said ? range->hi.lo : INFINITY;
-        if (!is_map && j < 2 && !(p->lo[j] > -INFINITY && p->hi[j] < INFINITY))
-            return input_refuse(in, "a formula says no finite domain of %c", "uv"[j]);
-        if (is_map && j < 2 && said[j].is_said)
-            return input_refuse(in, "a map has a domain of x or y");
-    }
-    if (is_map && said[2].is_said) return input_refuse(in, "a map has a domain of z");
-    return true;
-}
-
-/* A part of no size beside others, such as a curve at the edge of a surface, or at one time: no box
- * that is looked at would hold it. */
-static bool has_size(const piece *p, const part *q)
-{
-    for (int j = 0; j < 3; ++j)
-        for (size_t i = 0; i < p->count && q->lo[j] == q->hi[j]; ++i)
-            if (j == 2 || p->parts[i].lo[j] != q->lo[j] || p->parts[i].hi[j] != q->hi[j])
-                return false;
-    return true;
-}
-
-/* Whether two parts overlap, so that one of them would be left out. */
-static bool overlap(const part *a, const part *b)
-{
-    bool both = true;
-    for (int j = 0; j < 3; ++j)
-        both = both && fmax(a->inner_lo[j], b->inner_lo[j]) < fmin(a->inner_hi[j], b->inner_hi[j]);
-    return both;
-}
-
-static bool check_parts(input *in, const piece *p)
-{
-    for (size_t k = 0; k < p->count && !input_is_refused(in); ++k) {
-        if (!has_size(p, &p->parts[k])) input_refuse(in, "a part of a formula has no size");
-        for (size_t i = 0; i < k; ++i)
-            if (overlap(&p->parts[i], &p->parts[k]))
-                input_refuse(in, "parts %zu and %zu of a formula overlap", i + 1, k + 1);
-    }
-    return !input_is_refused(in);
-}
-
-static bool read_piece(statement *s, input *in, bool is_map, piece *p)
-{
-    const formula_scope scope = {.variables = is_map ? "xyzt" : "uvt"};
-    char *line = input_line(in, LINE_MAX_), fault[600];
-    const char *text = line != NULL && *line != '\0' ? line : NULL;
-    size_t room = 0;
-    while (text != NULL && GROW(in, p->parts, p->count, room)) {
-        formula_range said[FORMULA_VARIABLES];
-        if (p->count == PARTS_MAX) {
-            input_refuse(in, "a formula has more than %d parts", PARTS_MAX);
-            break;
-        }
-        part *made = &p->parts[p->count];
-        made->f = formula_read_part(&scope, text, said, fault, sizeof fault);
-        if (made->f == NULL) {
-            input_refuse(in, "a formula: %s", fault);
-            break;
-        }
-        p->count += 1;
-        formula_drop_values(made->f);
-        if (formula_steps(made->f) > s->steps) s->steps = formula_steps(made->f);
-        if (!take_part(in, is_map, said, made)) break;
-        text = formula_next_part(text);
-    }
-    free(line);
-    return check_parts(in, p);
-}
-
-static bool read_stage(statement *s, input *in, bool is_map, char **rest)
-{
-    if (!GROW(in, s->stages, s->stage_count, s->stage_room)) return false;
-    stage *made = &s->stages[s->stage_count++];
-    *made = (stage){.is_map = is_map};
-    const size_t count = whole(in, rest, PIECES_MAX);
-    copy(in, made->type, sizeof made->type, word(in, rest));
-    if (is_map && count != 1) input_refuse(in, "a map has pieces");
-    size_t room = 0;
-    for (size_t k = 0; k < count && !input_is_refused(in); ++k)
-        if (GROW(in, made->pieces, k, room)) {
-            made->pieces[made->count++] = (piece){NULL, 0};
-            read_piece(s, in, is_map, &made->pieces[k]);
-        }
-    return !input_is_refused(in);
-}
+enum { STAGES_MAX = 64 };
 
 static bool read_chain(statement *s, input *in, char **rest)
 {
     size_t found[STAGES_MAX], count = 0;
-    const size_t body = whole(in, rest, s->body_count);
+    const size_t body = words_whole(in, rest, s->body_count);
     while (*rest != NULL && count < STAGES_MAX && !input_is_refused(in)) {
-        found[count] = whole(in, rest, s->stage_count);
+        found[count] = words_whole(in, rest, s->stage_count);
         if (!input_is_refused(in) && s->stages[found[count]].is_map != (count > 0))
             input_refuse(in, "a surface is no type and maps");
         ++count;
     }
     if (count == 0 || *rest != NULL) input_refuse(in, "a surface has no type, or too many maps");
-    if (input_is_refused(in) || !GROW(in, s->chains, s->chain_count, s->chain_room)) return false;
+    if (input_is_refused(in) || !WORDS_GROW(in, s->chains, s->chain_count, s->chain_room))
+        return false;
     chain *made = &s->chains[s->chain_count++];
     *made = (chain){body, malloc(count * sizeof *made->stages), count};
     if (made->stages == NULL) return input_refuse(in, "memory ran out");
@@ -182,18 +34,19 @@ static bool read_chain(statement *s, input *in, char **rest)
 
 static bool read_source(statement *s, input *in, const char *kind, char **rest)
 {
-    if (!GROW(in, s->sources, s->source_count, s->source_room)) return false;
+    if (!WORDS_GROW(in, s->sources, s->source_count, s->source_room)) return false;
     source *made = &s->sources[s->source_count++];
     memset(made, 0, sizeof *made);
-    copy(in, made->kind, sizeof made->kind, kind);
-    if (strcmp(kind, "type") == 0) copy(in, made->type, sizeof made->type, word(in, rest));
-    copy(in, made->hash, sizeof made->hash, word(in, rest));
+    words_copy(in, made->kind, sizeof made->kind, kind);
+    if (strcmp(kind, "type") == 0)
+        words_copy(in, made->type, sizeof made->type, words_take(in, rest));
+    words_copy(in, made->hash, sizeof made->hash, words_take(in, rest));
     return !input_is_refused(in);
 }
 
 static void read_body(statement *s, input *in, const char *name)
 {
-    if (!GROW(in, s->bodies, s->body_count, s->body_room)) return;
+    if (!WORDS_GROW(in, s->bodies, s->body_count, s->body_room)) return;
     s->bodies[s->body_count] = strdup(name);
     if (s->bodies[s->body_count] == NULL)
         input_refuse(in, "memory ran out");
@@ -209,25 +62,25 @@ static int compare_ignored(const void *x, const void *y)
 
 static void read_ignored(statement *s, input *in, char **rest)
 {
-    if (!GROW(in, s->ignored, s->ignored_count, s->ignored_room)) return;
-    const size_t a = whole(in, rest, s->body_count), b = whole(in, rest, s->body_count);
+    if (!WORDS_GROW(in, s->ignored, s->ignored_count, s->ignored_room)) return;
+    const size_t a = words_whole(in, rest, s->body_count), b = words_whole(in, rest, s->body_count);
     s->ignored[s->ignored_count][0] = a < b ? a : b;
     s->ignored[s->ignored_count++][1] = a < b ? b : a;
 }
 
 static void read_within(statement *s, input *in, char **rest)
 {
-    s->within = number(in, rest);
-    if (strcmp(word(in, rest), "at") != 0) input_refuse(in, "expected 'at'");
-    s->t = number(in, rest);
+    s->within = words_number(in, rest);
+    if (strcmp(words_take(in, rest), "at") != 0) input_refuse(in, "expected 'at'");
+    s->t = words_number(in, rest);
     for (int k = 0; k < 2 && !input_is_refused(in); ++k) {
-        char *line = input_line(in, LINE_MAX_), *more = line;
+        char *line = input_line(in, STATEMENT_LINE_MAX), *more = line;
         if (line == NULL) return;
-        if (strcmp(word(in, &more), "point") != 0) input_refuse(in, "expected 'point'");
-        s->point[k].chain = whole(in, &more, PIECES_MAX);
-        s->point[k].piece = whole(in, &more, PIECES_MAX);
-        s->point[k].u = number(in, &more);
-        s->point[k].v = number(in, &more);
+        if (strcmp(words_take(in, &more), "point") != 0) input_refuse(in, "expected 'point'");
+        s->point[k].chain = words_whole(in, &more, STATEMENT_PIECES_MAX);
+        s->point[k].piece = words_whole(in, &more, STATEMENT_PIECES_MAX);
+        s->point[k].u = words_number(in, &more);
+        s->point[k].v = words_number(in, &more);
         if (more != NULL) input_refuse(in, "a line 'point' is too long");
         free(line);
     }
@@ -279,7 +132,7 @@ static bool check_claim(const statement *s, input *in, unsigned keys)
 static void read_line(statement *s, input *in, char *line, unsigned *keys, bool *done)
 {
     char *rest = line;
-    const char *key = word(in, &rest);
+    const char *key = words_take(in, &rest);
     const bool is_text = strcmp(key, "program") == 0 || strcmp(key, "body") == 0;
     const bool is_number =
         strcmp(key, "apart") == 0 || strcmp(key, "from") == 0 || strcmp(key, "to") == 0;
@@ -288,19 +141,19 @@ static void read_line(statement *s, input *in, char *line, unsigned *keys, bool 
         double *to = bit == KEY_APART ? &s->apart : bit == KEY_FROM ? &s->from : &s->to;
         if (*keys & bit) input_refuse(in, "a second line '%s'", key);
         *keys |= bit;
-        *to = number(in, &rest);
+        *to = words_number(in, &rest);
     } else if (strcmp(key, "trees") == 0)
         *done = true;
     else if (strcmp(key, "program") == 0)
-        copy(in, s->program, sizeof s->program, rest != NULL ? rest : "");
+        words_copy(in, s->program, sizeof s->program, rest != NULL ? rest : "");
     else if (strcmp(key, "verdict") == 0 && s->verdict[0] == '\0')
-        copy(in, s->verdict, sizeof s->verdict, word(in, &rest));
+        words_copy(in, s->verdict, sizeof s->verdict, words_take(in, &rest));
     else if (strcmp(key, "scene") == 0 || strcmp(key, "type") == 0)
         read_source(s, in, key, &rest);
     else if (strcmp(key, "within") == 0 && !s->has_points)
         read_within(s, in, &rest);
     else if (strcmp(key, "shape") == 0 || strcmp(key, "map") == 0)
-        read_stage(s, in, key[0] == 'm', &rest);
+        statement_read_stage(s, in, key[0] == 'm', &rest);
     else if (strcmp(key, "body") == 0)
         read_body(s, in, rest != NULL ? rest : "");
     else if (strcmp(key, "surface") == 0)
@@ -322,7 +175,7 @@ bool statement_read(statement *s, input *in)
         input_refuse(in, "it begins with no 'impinge certificate 1'");
     free(first);
     while (!done && !input_is_refused(in)) {
-        char *line = input_line(in, LINE_MAX_);
+        char *line = input_line(in, STATEMENT_LINE_MAX);
         if (line != NULL) read_line(s, in, line, &keys, &done);
         free(line);
     }
