@@ -107,6 +107,7 @@ core_scene = \
     core/scene/pair_count.c \
     core/scene/posed_scene.c core/scene/posed_scene.h \
     core/scene/scene.c core/scene/scene.h \
+    core/scene/scene_change.c core/scene/scene_change.h \
     core/scene/scene_formula.c \
     core/scene/scene_groups.c core/scene/scene_internal.h \
     core/scene/scene_parameters.c core/scene/scene_parameters.h \
@@ -238,7 +239,8 @@ core_reader = \
     core/reader/scene_instances.c core/reader/scene_instances.h \
     core/reader/scene_json.c core/reader/scene_json.h \
     core/reader/scene_label.c core/reader/scene_label.h \
-    core/reader/scene_shared.c
+    core/reader/scene_shared.c \
+    core/reader/scene_values.c
 
 # What the library and the command share; each links its own copy.
 noinst_LTLIBRARIES += core/libcommon.la

@@ -100,6 +100,7 @@ mpfi_suites = \
     tests/unit/test_nets \
     tests/unit/test_net_series \
     tests/unit/test_poses \
+    tests/unit/test_set_values \
     tests/unit/test_shapes \
     tests/unit/test_loop \
     tests/unit/test_subdivision \
@@ -436,6 +437,8 @@ tests_unit_test_alloc_failure_SOURCES = tests/unit/test_alloc_failure.c tests/su
 tests_unit_test_alloc_failure_LDFLAGS = $(alloc_failure_ldflags)
 tests_unit_test_linked_in_SOURCES = tests/unit/test_linked_in.c tests/support/alloc_failure.c
 tests_unit_test_linked_in_LDFLAGS = $(alloc_failure_ldflags)
+tests_unit_test_set_values_SOURCES = tests/unit/test_set_values.c tests/support/alloc_failure.c
+tests_unit_test_set_values_LDFLAGS = $(alloc_failure_ldflags)
 tests_unit_test_query_memory_SOURCES = tests/unit/test_query_memory.c tests/support/alloc_failure.c
 tests_unit_test_query_memory_LDFLAGS = $(alloc_failure_ldflags)
 

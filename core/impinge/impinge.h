@@ -336,6 +336,30 @@ IMP_EXPORT imp_code imp_builder_ignore(imp_builder *builder, const char *x, cons
  * error. */
 IMP_EXPORT imp_scene *imp_builder_finish(imp_builder *builder, imp_error *error);
 
+/* --- Scene: numbers that change --------------------------------------------------------------- */
+
+/* Gives a surface or a map of a body new arguments, for programs that ask about one scene again and
+ * again, as simulations do. Its type stays, and so do all other surfaces and maps with what queries
+ * found out about them. Afterwards the scene answers, bit for bit, like one that was built with
+ * these arguments; stats.nodes and stats.bytes count less where trees stayed. The call takes time
+ * in proportion to the surfaces and maps of the scene.
+ *
+ * With `map` SIZE_MAX it changes surface number `surface` of the body; with `surface` SIZE_MAX map
+ * number `map` of the body, which moves its children, too; otherwise map number `map` of that
+ * surface's own. All are counted from 0, in the order in which they were added. `arguments` are as
+ * in imp_builder_surface, in the units that the type states: all of them, since those not given are
+ * as if absent; relative names of files begin at the working directory, and nothing is kept. Maps
+ * that were one in the text or builder because they were equal are changed one by one; maps that
+ * become equal are one again, unless they read files.
+ *
+ * The scene must not be in use by other threads. IMP_ERROR_USAGE: it has queries or surveys, which
+ * must be freed before; it has parameters, or was made by imp_scene_at; there is no such surface or
+ * map. IMP_ERROR_SCENE, IMP_ERROR_PLUGIN: the arguments are refused, by the type's table or its
+ * create. IMP_ERROR_MEMORY. On any error the scene is as it was. */
+IMP_EXPORT imp_code imp_scene_set_values(imp_scene *scene, size_t body, size_t surface, size_t map,
+                                         const imp_argument *arguments, size_t count,
+                                         imp_error *error);
+
 /* --- Scene: its parameters -------------------------------------------------------------------- */
 
 /* A parameter of a scene, "parameters" of scene files. It never grows. */

@@ -61,11 +61,11 @@ static unsigned char *put(unsigned char *to, const void *from, size_t size)
 
 /* Writes which values were given, and the state of each file. NULL: a file has none. */
 static unsigned char *put_rows(unsigned char *to, const parameter_table *table,
-                               const json_t *object, const parameter_values *values)
+                               const parameter_values *values)
 {
     for (size_t k = 0; k < values->count; ++k) {
         file_state state;
-        *to++ = json_object_get(object, parameter_table_row(table, k)->name) != NULL;
+        *to++ = values->given[k];
         if (!names_file(table, values, k)) continue;
         if (!read_state(values->value[k].string[0], &state)) return NULL;
         to = put(to, &state, sizeof state);
@@ -73,8 +73,8 @@ static unsigned char *put_rows(unsigned char *to, const parameter_table *table,
     return to;
 }
 
-kept_key kept_key_of(const void *type, const parameter_table *table, const json_t *object,
-                     const parameter_values *values, const char *label)
+kept_key kept_key_of(const void *type, const parameter_table *table, const parameter_values *values,
+                     const char *label)
 {
     enum { KEY_MAX = 1 << 16 }; /* bytes: with more, comparing takes as long as making */
     size_t files = 0;
@@ -87,8 +87,7 @@ kept_key kept_key_of(const void *type, const parameter_table *table, const json_
     if (bytes == NULL) return (kept_key){NULL, 0, 0};
     value_bytes_write(values->value, values->count, bytes);
     unsigned char *end = put(put(bytes + of_values, &type, sizeof type), label, of_label);
-    if (put_rows(end, table, object, values) != NULL)
-        return (kept_key){bytes, size, hash_of(bytes, size)};
+    if (put_rows(end, table, values) != NULL) return (kept_key){bytes, size, hash_of(bytes, size)};
     free(bytes);
     return (kept_key){NULL, 0, 0};
 }

@@ -33,12 +33,12 @@ typedef struct kept_key {
     uint64_t hash;
 } kept_key;
 
-/* Makes the key, to be cleared, for an instance of that type as `label` describes it, from values
- * that `object` gave. There is none where no value names a file, where one is no regular file or
+/* Makes the key, to be cleared, for an instance of that type as `label` describes it, from these
+ * values. There is none where no value names a file, where one is no regular file or
  * was changed in the last two seconds, when another change might not show in its times, where
  * values are large, and where there is no memory. */
-kept_key kept_key_of(const void *type, const parameter_table *table, const json_t *object,
-                     const parameter_values *values, const char *label);
+kept_key kept_key_of(const void *type, const parameter_table *table, const parameter_values *values,
+                     const char *label);
 void kept_key_clear(kept_key *key);
 
 /* Returns the instance of that key, held for the caller; NULL: none is kept. */

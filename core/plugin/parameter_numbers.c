@@ -57,9 +57,10 @@ static imp_code read_given(const parameter_table *table, const imp_argument *arg
         const char *name = arguments[k].name;
         const ptrdiff_t row = name != NULL ? parameter_table_find(table, name) : -1;
         *fits = row >= 0 && values->value[row].number == NULL;
-        if (*fits)
-            code = read_argument(parameter_table_row(table, (size_t)row), &arguments[k],
-                                 &values->value[row], fits, error);
+        if (!*fits) break;
+        values->given[row] = true;
+        code = read_argument(parameter_table_row(table, (size_t)row), &arguments[k],
+                             &values->value[row], fits, error);
     }
     return code;
 }
@@ -83,7 +84,8 @@ imp_code parameter_numbers_read(const parameter_table *table, const imp_argument
 {
     bool fits = arguments != NULL || count == 0;
     *values = (parameter_values){.count = table->count};
-    values->value = calloc(table->count + 1, sizeof *values->value);
+    values->value = calloc(table->count + 1, sizeof *values->value + sizeof *values->given);
+    if (values->value != NULL) values->given = (bool *)(values->value + table->count + 1);
     values->made = json_array();
     imp_code code =
         values->value != NULL && values->made != NULL ? IMP_SUCCESS : error_set_memory(error);

@@ -103,6 +103,7 @@ static imp_code read_all(const parameter_table *table, const json_t *object, con
     for (size_t i = 0; i < table->count && code == IMP_SUCCESS; ++i) {
         const imp_parameter *row = parameter_table_row(table, i);
         const json_t *json = json_object_get(object, row->name);
+        values->given[i] = json != NULL;
         place member = place_key(at, row->name);
         code = whole_name(row, folder, values, &json, error);
         if (code != IMP_SUCCESS) return code;
@@ -120,7 +121,8 @@ imp_code parameters_read(const parameter_table *table, const char *type, const j
     imp_code code = refuse_unknown(table, type, object, at, error);
     if (code != IMP_SUCCESS) return code;
     *values = (parameter_values){.count = table->count};
-    values->value = calloc(table->count + 1, sizeof *values->value);
+    values->value = calloc(table->count + 1, sizeof *values->value + sizeof *values->given);
+    if (values->value != NULL) values->given = (bool *)(values->value + table->count + 1);
     values->made = json_array();
     code = values->value != NULL && values->made != NULL
                ? read_all(table, object, folder, at, values, error)

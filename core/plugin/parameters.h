@@ -26,6 +26,7 @@ bool parameters_is_reserved(const char *name);
  * from, which must live as long. */
 typedef struct parameter_values {
     imp_value *value;
+    bool *given; /* of each row: the object has it */
     size_t count;
     json_t *made; /* JSON that is not in the object: presets, names of files made whole */
 } parameter_values;

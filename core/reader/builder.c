@@ -145,8 +145,8 @@ static imp_code make(imp_builder *b, imp_type_kind kind, const char *type,
     json_t *object;
     imp_code code = IMP_SUCCESS;
     if (kind == IMP_TYPE_SURFACE && type != NULL)
-        code = scene_build_numbers(&b->bodies.instances.source, type, arguments, count, at, made,
-                                   error);
+        code = scene_build_numbers(&b->bodies.instances.source, kind, type, arguments, count, at,
+                                   made, error);
     if (code != IMP_SUCCESS || *made != NULL) return code;
     code = arguments_to_json(type, arguments, count, at, &object, error);
     if (code != IMP_SUCCESS) return code;

@@ -19,6 +19,7 @@ imp_code scene_bodies_start(scene_bodies *b, const scene_source *source, imp_err
     *b = (scene_bodies){
         .instances = {.source = *source, .error = error}, .names = json_object(), .error = error};
     if (!assembly_begin(&b->assembly) || b->names == NULL) return error_set_memory(error);
+    scene_set_registry(b->assembly.scene, source->registry);
     scene_set_store(b->assembly.scene, registry_store(source->registry));
     b->instances.parameters = scene_parameters_of(b->assembly.scene);
     return IMP_SUCCESS;

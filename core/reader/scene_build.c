@@ -212,21 +212,28 @@ static imp_code take_type(const imp_registry *registry, imp_type_kind kind, scen
     return IMP_SUCCESS;
 }
 
+/* False: there is no such type. */
+static bool look_up(const imp_registry *registry, imp_type_kind kind, const char *name,
+                    scene_making *m)
+{
+    imp_instance *i = &m->instance;
+    if (kind == IMP_TYPE_SURFACE)
+        i->surface = registry_find_surface(registry, name);
+    else
+        i->map = registry_find_map(registry, name);
+    if (i->surface == NULL && i->map == NULL) return false;
+    m->view = i->surface != NULL ? type_view_of_surface(i->surface) : type_view_of_map(i->map);
+    return true;
+}
+
 static imp_code find_type(const imp_registry *registry, imp_type_kind kind, const json_t *object,
                           const place *at, scene_making *m, imp_error *error)
 {
     const char *name = NULL;
     const imp_code code = read_type(object, kind, at, &name, error);
     if (code != IMP_SUCCESS) return code;
-    imp_instance *i = &m->instance;
-    if (kind == IMP_TYPE_SURFACE)
-        i->surface = registry_find_surface(registry, name);
-    else
-        i->map = registry_find_map(registry, name);
-    place where = at->argument ? *at : place_key(at, "type");
-    if (i->surface == NULL && i->map == NULL)
-        return refuse_type(registry, kind, name, &where, error);
-    m->view = i->surface != NULL ? type_view_of_surface(i->surface) : type_view_of_map(i->map);
+    const place where = at->argument ? *at : place_key(at, "type");
+    if (!look_up(registry, kind, name, m)) return refuse_type(registry, kind, name, &where, error);
     return take_type(registry, kind, m, error);
 }
 
@@ -242,16 +249,15 @@ imp_code scene_making_begin(scene_making *m, const scene_source *source, imp_typ
     return code;
 }
 
-imp_code scene_making_begin_numbers(scene_making *m, const scene_source *source, const char *type,
-                                    const imp_argument *arguments, size_t count, const place *at,
-                                    imp_error *error)
+imp_code scene_making_begin_numbers(scene_making *m, const scene_source *source, imp_type_kind kind,
+                                    const char *type, const imp_argument *arguments, size_t count,
+                                    const place *at, imp_error *error)
 {
-    *m = (scene_making){.instance.surface = registry_find_surface(source->registry, type)};
-    if (m->instance.surface == NULL) return IMP_SUCCESS;
-    m->view = type_view_of_surface(m->instance.surface);
+    *m = (scene_making){.view.name = NULL};
+    if (!look_up(source->registry, kind, type, m)) return IMP_SUCCESS;
     imp_code code = parameter_numbers_read(&m->view.table, arguments, count, at, &m->values, error);
     if (code != IMP_SUCCESS || m->values.value == NULL) return code;
-    code = take_type(source->registry, IMP_TYPE_SURFACE, m, error);
+    code = take_type(source->registry, kind, m, error);
     if (code != IMP_SUCCESS) parameters_clear(&m->values);
     return code;
 }

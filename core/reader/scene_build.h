@@ -31,11 +31,11 @@ typedef struct scene_source {
 imp_code scene_build_shared(const scene_source *source, imp_type_kind kind, const json_t *object,
                             const place *at, shared_instance **made, imp_error *error);
 
-/* Makes the surface, without maps, that a type's name and typed arguments ask for, without the
- * object that a scene file would have: the same instance, from the same numbers. *made NULL: it
- * makes none, because an argument is not numbers, or not as the type's table says; then the object
- * has to be made, which tells what is wrong. */
-imp_code scene_build_numbers(const scene_source *source, const char *type,
+/* Makes the surface, without maps, or the map that a type's name and typed arguments ask for,
+ * without the object that a scene file would have: the same instance, from the same numbers. *made
+ * NULL: it makes none, because an argument is not numbers, or not as the type's table says; then
+ * the object has to be made, which tells what is wrong. */
+imp_code scene_build_numbers(const scene_source *source, imp_type_kind kind, const char *type,
                              const imp_argument *arguments, size_t count, const place *at,
                              shared_instance **made, imp_error *error);
 
@@ -68,12 +68,12 @@ typedef struct scene_build_note {
 imp_code scene_making_begin(scene_making *m, const scene_source *source, imp_type_kind kind,
                             const json_t *object, const place *at, imp_error *error);
 
-/* Finds the surface type and reads the values, which are numbers, from typed arguments.
+/* Finds the type and reads the values, which are numbers, from typed arguments.
  * m->values.value NULL: they do not fit (parameter_numbers_read); then, and if it fails, there is
  * nothing to clear. */
-imp_code scene_making_begin_numbers(scene_making *m, const scene_source *source, const char *type,
-                                    const imp_argument *arguments, size_t count, const place *at,
-                                    imp_error *error);
+imp_code scene_making_begin_numbers(scene_making *m, const scene_source *source, imp_type_kind kind,
+                                    const char *type, const imp_argument *arguments, size_t count,
+                                    const place *at, imp_error *error);
 
 /* Calls create; the caller then owns m->instance. `note` may be NULL. */
 imp_code scene_making_create(scene_making *m, const place *at, scene_build_note *note,

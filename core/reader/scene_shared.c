@@ -36,6 +36,53 @@ static size_t bytes_given(const json_t *value)
     }
 }
 
+/* The place of a value among those given: its row, how many numbers or texts there are, and in how
+ * many rows, columns and so on. */
+typedef struct given_head {
+    uint32_t row, count, extent[2]; /* the third extent follows */
+} given_head;
+
+/* Writes the values that were given, each behind its head, and returns how many bytes these are.
+ * `to` NULL: only counts. */
+static size_t write_given(const parameter_values *values, unsigned char *to)
+{
+    size_t size = 0;
+    for (size_t k = 0; k < values->count; ++k) {
+        const imp_value *v = &values->value[k];
+        const given_head head = {
+            (uint32_t)k, (uint32_t)v->count, {(uint32_t)v->extent[0], (uint32_t)v->extent[1]}};
+        if (!values->given[k]) continue;
+        if (to != NULL) memcpy(to + size, &head, sizeof head);
+        size += sizeof head;
+        const size_t of_numbers = v->number != NULL ? v->count * sizeof *v->number : 0;
+        if (to != NULL && of_numbers > 0) memcpy(to + size, v->number, of_numbers);
+        size += of_numbers;
+        for (size_t j = 0; v->string != NULL && j < v->count; ++j) {
+            const size_t length = strlen(v->string[j]) + 1;
+            if (to != NULL) memcpy(to + size, v->string[j], length);
+            size += length;
+        }
+    }
+    return size;
+}
+
+/* Describes a map by its values, so that equal maps are found; not if a value names a file, whose
+ * contents may change. False: no memory. */
+static bool describe(shared_instance *p, const scene_making *m)
+{
+    if (p->map == NULL) return true;
+    for (size_t k = 0; k < m->values.count; ++k)
+        if (parameter_table_row(&m->view.table, k)->flags & IMP_PARAMETER_FILE &&
+            m->values.given[k])
+            return true;
+    const size_t size = write_given(&m->values, NULL);
+    p->description = malloc(sizeof *p->description + size);
+    if (p->description == NULL) return false;
+    p->description->size = size;
+    write_given(&m->values, p->description->bytes);
+    return true;
+}
+
 /* Finishes the instance that create made, and takes over what the note holds. It was
  * made from numbers and texts of so many bytes. */
 static imp_code share(const scene_making *m, scene_build_note *note, size_t bytes,
@@ -50,7 +97,8 @@ static imp_code share(const scene_making *m, scene_build_note *note, size_t byte
     }
     p->numbers = note->numbers;
     p->given = bytes + (size_t)note->bytes;
-    const bool noted = note->count == 0 || instance_set_note(p, note->count, note->text);
+    const bool noted =
+        (note->count == 0 || instance_set_note(p, note->count, note->text)) && describe(p, m);
     if (noted && p->breach == IMP_STATUS_OK && instance_set_label(p, label)) {
         *made = p;
         return IMP_SUCCESS;
@@ -75,12 +123,12 @@ static imp_code make(scene_making *m, size_t bytes, const char *label, const pla
 }
 
 /* No key if the instance is isolated: if its process ends, it is lost for all scenes. */
-static kept_key key_of(const scene_making *m, const json_t *object, const char *label)
+static kept_key key_of(const scene_making *m, const char *label)
 {
     const void *type = m->instance.surface != NULL ? (const void *)m->instance.surface
                                                    : (const void *)m->instance.map;
     if (m->stand_in != NULL) return (kept_key){NULL, 0, 0};
-    return kept_key_of(type, &m->view.table, object, &m->values, label);
+    return kept_key_of(type, &m->view.table, &m->values, label);
 }
 
 /* Finds the instance among those that the registry keeps, or makes it. */
@@ -90,12 +138,12 @@ static imp_code find_or_make(kept_instances *kept, scene_making *m, const json_t
     char label[INSTANCE_LABEL_MAX];
     bool is_repeatable = false;
     scene_label_object(label, m->view.name, object);
-    kept_key key = key_of(m, object, label);
+    kept_key key = key_of(m, label);
     *made = kept_instances_find(kept, &key);
     imp_code code = IMP_SUCCESS;
     if (*made == NULL) code = make(m, bytes_given(object), label, at, made, &is_repeatable, error);
     if (code == IMP_SUCCESS && is_repeatable && key.bytes != NULL) {
-        kept_key now = key_of(m, object, label);
+        kept_key now = key_of(m, label);
         kept_instances_add(kept, &key, &now, *made);
         kept_key_clear(&now);
     }
@@ -115,7 +163,7 @@ imp_code scene_build_shared(const scene_source *source, imp_type_kind kind, cons
 }
 
 /* The registry keeps instances of files; one made from numbers alone is of none. */
-imp_code scene_build_numbers(const scene_source *source, const char *type,
+imp_code scene_build_numbers(const scene_source *source, imp_type_kind kind, const char *type,
                              const imp_argument *arguments, size_t count, const place *at,
                              shared_instance **made, imp_error *error)
 {
@@ -123,7 +171,7 @@ imp_code scene_build_numbers(const scene_source *source, const char *type,
     char label[INSTANCE_LABEL_MAX];
     bool is_repeatable;
     *made = NULL;
-    imp_code code = scene_making_begin_numbers(&m, source, type, arguments, count, at, error);
+    imp_code code = scene_making_begin_numbers(&m, source, kind, type, arguments, count, at, error);
     if (code != IMP_SUCCESS || m.values.value == NULL) return code;
     size_t bytes = strlen(type);
     for (size_t k = 0; k < count; ++k)

@@ -155,6 +155,9 @@ imp_scene *assembly_finish(assembly *a)
             if (s == NULL || scene_add_surface(a->scene, body, s) != IMP_SUCCESS) return NULL;
         }
     }
+    if (scene_add_layout(a->scene) != IMP_SUCCESS) return NULL;
+    for (size_t body = 0; body < a->count; ++body)
+        scene_set_maps(a->scene, body, &a->bodies[body].maps, a->bodies[body].parent);
     imp_scene *scene = a->scene;
     a->scene = NULL;
     assembly_clear(a);

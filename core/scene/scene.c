@@ -22,6 +22,7 @@ imp_scene *scene_new(void)
     if (scene == NULL) return NULL;
     scene->settings = (scene_settings){NAN, NAN, 1e-6, -1};
     scene->t_from = INFINITY, scene->t_to = -INFINITY;
+    scene->references = 1;
     return scene;
 }
 
@@ -31,18 +32,19 @@ static void member_free(member *m)
     surface_free(m->surface);
 }
 
-void imp_scene_free(imp_scene *scene)
+static void free_all(imp_scene *scene)
 {
-    if (scene == NULL) return;
     for (size_t b = 0; b < scene->count; ++b) {
         for (size_t k = 0; k < scene->bodies[b].count; ++k)
             member_free(&scene->bodies[b].members[k]);
         free(scene->bodies[b].members);
+        if (scene->layout != NULL) instance_list_clear(&scene->layout[b].maps);
         free(scene->bodies[b].groups);
         free(scene->bodies[b].name);
     }
     for (size_t g = 0; g < scene->group_count; ++g) free(scene->groups[g]);
     free(scene->groups);
+    free(scene->layout);
     free(scene->bodies);
     scene_remarks_clear(&scene->remarks);
     key_pairs_clear(&scene->ignored);
@@ -50,12 +52,28 @@ void imp_scene_free(imp_scene *scene)
     free(scene);
 }
 
-static bool note_remarks(imp_scene *scene)
+void scene_begin_use(imp_scene *scene)
+{
+    atomic_fetch_add_explicit(&scene->references, 1, memory_order_relaxed);
+}
+
+void scene_end_use(imp_scene *scene)
+{
+    if (atomic_fetch_sub_explicit(&scene->references, 1, memory_order_acq_rel) == 1)
+        free_all(scene);
+}
+
+void imp_scene_free(imp_scene *scene)
+{
+    if (scene != NULL) scene_end_use(scene);
+}
+
+bool scene_note_remarks(const imp_scene *scene, scene_remarks *to)
 {
     bool kept = true;
     for (size_t b = 0; b < scene->count && kept; ++b)
         for (size_t k = 0; k < scene->bodies[b].count && kept; ++k)
-            kept = scene_remarks_add(&scene->remarks, scene->bodies[b].members[k].surface, b, k);
+            kept = scene_remarks_add(to, scene->bodies[b].members[k].surface, b, k);
     return kept;
 }
 
@@ -74,6 +92,30 @@ imp_code scene_add_body(imp_scene *scene, const char *name)
 void scene_set_store(imp_scene *scene, arena_store *store) { scene->store = store; }
 
 arena_store *scene_store(const imp_scene *scene) { return scene->store; }
+
+void scene_set_registry(imp_scene *scene, const imp_registry *registry)
+{
+    scene->registry = registry;
+}
+
+const imp_registry *scene_registry(const imp_scene *scene) { return scene->registry; }
+
+imp_code scene_add_layout(imp_scene *scene)
+{
+    scene->layout = calloc(scene->count + 1, sizeof *scene->layout);
+    for (size_t b = 0; b < scene->count && scene->layout != NULL; ++b)
+        scene->layout[b].parent = SIZE_MAX;
+    return scene->layout != NULL ? IMP_SUCCESS : IMP_ERROR_MEMORY;
+}
+
+void scene_set_maps(imp_scene *scene, size_t body, instance_list *maps, size_t parent)
+{
+    assert(body < scene->count && scene->layout != NULL);
+    scene->layout[body].maps = *maps;
+    scene->layout[body].parent = parent;
+    if (parent != SIZE_MAX) scene->layout[parent].is_parent = true;
+    *maps = (instance_list){.count = 0};
+}
 
 void scene_set_solid(imp_scene *scene, size_t body, bool is_solid)
 {
@@ -119,29 +161,48 @@ static int compare_addresses(const void *x, const void *y)
     return (a > b) - (a < b);
 }
 
+/* Addresses of instances, in any order. */
+typedef struct address_list {
+    uintptr_t *at;
+    size_t count, capacity;
+} address_list;
+
+static bool add_address(address_list *list, const shared_instance *p)
+{
+    uintptr_t *grown = array_reserve(list->at, list->count, &list->capacity, sizeof *grown);
+    if (grown == NULL) return false;
+    list->at = grown;
+    list->at[list->count++] = (uintptr_t)p;
+    return true;
+}
+
+static bool add_addresses(address_list *list, const imp_scene *scene, size_t body)
+{
+    const scene_body *b = &scene->bodies[body];
+    for (size_t k = 0; k < b->count; ++k)
+        for (size_t stage = 0; stage <= surface_map_count(b->members[k].surface); ++stage)
+            if (!add_address(list, surface_origin(b->members[k].surface, stage))) return false;
+    if (scene->layout == NULL) return true;
+    const instance_list *maps = &scene->layout[body].maps;
+    for (size_t k = 0; k < maps->count; ++k)
+        if (!add_address(list, maps->at[k])) return false;
+    return true;
+}
+
 /* Each instance counts once, however many surfaces share it, and in each of the scenes that do: so
  * the sum does not depend on which other scenes there are. */
 static imp_code sum_instances(const imp_scene *scene, uint64_t *bytes)
 {
-    uintptr_t *list = NULL;
-    size_t count = 0, capacity = 0;
-    for (size_t b = 0; b < scene->count; ++b)
-        for (size_t k = 0; k < scene->bodies[b].count; ++k) {
-            const surface *s = scene->bodies[b].members[k].surface;
-            for (size_t stage = 0; stage <= surface_map_count(s); ++stage) {
-                uintptr_t *grown = array_reserve(list, count, &capacity, sizeof *grown);
-                if (grown == NULL) return free(list), IMP_ERROR_MEMORY;
-                list = grown;
-                list[count++] = (uintptr_t)surface_origin(s, stage);
-            }
-        }
-    if (count > 0) qsort(list, count, sizeof *list, compare_addresses);
+    address_list list = {.count = 0};
+    bool kept = true;
+    for (size_t b = 0; b < scene->count && kept; ++b) kept = add_addresses(&list, scene, b);
+    if (list.count > 0) qsort(list.at, list.count, sizeof *list.at, compare_addresses);
     *bytes = 0;
-    for (size_t k = 0; k < count; ++k)
-        if (k == 0 || list[k] != list[k - 1])
-            *bytes += instance_bytes((const shared_instance *)list[k]);
-    free(list);
-    return IMP_SUCCESS;
+    for (size_t k = 0; k < list.count; ++k)
+        if (k == 0 || list.at[k] != list.at[k - 1])
+            *bytes += instance_bytes((const shared_instance *)list.at[k]);
+    free(list.at);
+    return kept ? IMP_SUCCESS : IMP_ERROR_MEMORY;
 }
 
 static uint64_t sum_of_bytes(const imp_scene *scene)
@@ -155,6 +216,10 @@ static uint64_t sum_of_bytes(const imp_scene *scene)
                  body->group_capacity * sizeof *body->groups + 2 * INSTANCE_BLOCK;
         for (size_t k = 0; k < body->count; ++k) bytes += surface_bytes(body->members[k].surface);
     }
+    for (size_t b = 0; b < scene->count && scene->layout != NULL; ++b) {
+        const instance_list *maps = &scene->layout[b].maps;
+        bytes += sizeof *scene->layout + maps->capacity * sizeof *maps->at;
+    }
     return bytes;
 }
 
@@ -165,7 +230,7 @@ uint64_t scene_bytes(const imp_scene *scene)
 
 /* --- Once it is built ------------------------------------------------------------------------- */
 
-static void note_times(imp_scene *scene)
+void scene_note_times(imp_scene *scene)
 {
     scene->t_from = -INFINITY, scene->t_to = INFINITY;
     for (size_t b = 0; b < scene->count; ++b)
@@ -177,18 +242,24 @@ static void note_times(imp_scene *scene)
         }
 }
 
+void scene_choose_times(imp_scene *scene)
+{
+    double time[2];
+    if (!scene->chooses_times) return;
+    default_times(scene, time, NULL); /* NAN where there are none */
+    scene->settings.t_start = time[0];
+    scene->settings.t_end = time[1];
+}
+
 imp_code scene_complete(imp_scene *scene)
 {
-    scene_settings *set = &scene->settings;
-    double time[2];
     uint64_t of_instances;
     if (sum_instances(scene, &of_instances) != IMP_SUCCESS) return IMP_ERROR_MEMORY;
     scene->bytes = sum_of_bytes(scene) + of_instances;
-    note_times(scene);
-    if (!note_remarks(scene)) return IMP_ERROR_MEMORY;
-    if (!isnan(set->t_start) || default_times(scene, time, NULL) != IMP_SUCCESS) return IMP_SUCCESS;
-    set->t_start = time[0];
-    set->t_end = time[1];
+    scene->chooses_times = isnan(scene->settings.t_start);
+    scene_note_times(scene);
+    if (!scene_note_remarks(scene, &scene->remarks)) return IMP_ERROR_MEMORY;
+    scene_choose_times(scene);
     return IMP_SUCCESS;
 }
 

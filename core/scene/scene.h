@@ -26,6 +26,23 @@ bool scene_has_solids(const imp_scene *scene); /* whether any body is */
 void scene_set_store(imp_scene *scene, arena_store *store);
 arena_store *scene_store(const imp_scene *scene);
 
+/* Sets the registry that its instances are made by, which must outlive the scene; NULL at first,
+ * and in scenes whose values are not changed. */
+void scene_set_registry(imp_scene *scene, const imp_registry *registry);
+const imp_registry *scene_registry(const imp_scene *scene);
+
+/* Makes room for what scene_set_maps notes. IMP_ERROR_MEMORY, or IMP_SUCCESS. */
+imp_code scene_add_layout(imp_scene *scene);
+
+/* Notes which maps at the end of each surface of a body are the body's own, and whose maps come
+ * after them; SIZE_MAX: nobody's. Takes over the list. */
+void scene_set_maps(imp_scene *scene, size_t body, instance_list *maps, size_t parent);
+
+/* Count the queries and surveys of a scene, which is not changed while there are any, and freed
+ * with the last of them if its owner was faster. [any thread] */
+void scene_begin_use(imp_scene *scene);
+void scene_end_use(imp_scene *scene);
+
 /* Takes over `s`, also when it fails. */
 imp_code scene_add_surface(imp_scene *scene, size_t body, surface *s);
 

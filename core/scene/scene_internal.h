@@ -35,6 +35,13 @@ typedef struct scene_body {
     size_t group_count, group_capacity;
 } scene_body;
 
+/* What bodies have in common with their surfaces and their parents, for scenes that may change. */
+typedef struct scene_layout {
+    instance_list maps; /* of the body itself, which come after those of each surface */
+    size_t parent;      /* whose maps come after its own; SIZE_MAX: none */
+    bool is_parent;
+} scene_layout;
+
 struct imp_scene {
     scene_body *bodies;
     size_t count, capacity;
@@ -47,9 +54,22 @@ struct imp_scene {
     uint64_t bytes;      /* 0: not complete: then without instances */
     double t_from, t_to; /* when all surfaces are defined; not known yet: never */
     scene_remarks remarks;
-    arena_store *store; /* of blocks for trees; not its own; NULL: the heap */
-    /* once it is built all but the members' lists of trees is only read */
+    arena_store *store;           /* of blocks for trees; not its own; NULL: the heap */
+    scene_layout *layout;         /* of each body; NULL: the scene is not changed */
+    const imp_registry *registry; /* whose types its instances are of; NULL: it has no layout */
+    bool chooses_times;           /* nobody has set those to examine */
+    _Atomic(size_t) references;   /* queries and surveys of it, and its owner */
+    /* once it is built all but the members' lists of trees is only read, but by scene_change.c */
 };
+
+/* Sets t_from and t_to. */
+void scene_note_times(imp_scene *scene);
+
+/* Chooses the times to examine, if nobody has set them. */
+void scene_choose_times(imp_scene *scene);
+
+/* Collects what types remarked, in `to`. False: no memory. */
+bool scene_note_remarks(const imp_scene *scene, scene_remarks *to);
 
 /* Frees the trees of a surface, and the surfaces in frames that they are of. */
 void scene_free_trees(member *m);

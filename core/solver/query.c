@@ -65,6 +65,7 @@ FP_APART static imp_query *new_query(imp_scene *scene, const imp_options *given,
                                     .stats = &query->stats},
                          .verdict = IMP_VERDICT_UNDECIDED,
                          .reason = IMP_REASON_RUNNING};
+    scene_begin_use(scene);
     query->peak_bytes = query->scene_bytes + sizeof *query;
     query_begin_watch(query);
     return query;
@@ -91,6 +92,7 @@ void imp_query_free(imp_query *query)
     candidates_clear(&query->candidates);
     query_forget_proof(query);
     free(query->parts);
+    scene_end_use(query->scene);
     free(query);
 }
 

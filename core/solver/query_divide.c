@@ -93,6 +93,7 @@ static imp_query *fresh_query(const imp_query *whole, imp_error *error)
         return NULL;
     }
     query->scene = whole->scene;
+    scene_begin_use(query->scene);
     query->options = whole->options;
     query->gamma_clear = whole->gamma_clear;
     query->options.parallel = NULL;

@@ -148,8 +148,10 @@ shared_instance *instance_of_map(const imp_map_type *type, void *self)
 
 size_t instance_bytes(const shared_instance *p)
 {
+    const instance_description *of = p->description;
     return sizeof *p + p->given + p->label_size + 4 * INSTANCE_BLOCK +
            p->numbers.count * sizeof *p->numbers.number +
+           (of != NULL ? sizeof *of + of->size + INSTANCE_BLOCK : 0) +
            p->piece_count * (sizeof *p->pieces + INSTANCE_PIECE);
 }
 
@@ -190,6 +192,7 @@ void instance_release(shared_instance *p)
     free(p->label);
     free(p->note);
     free(p->numbers.number);
+    free(p->description);
     instance_release(p->inner);
     free(p);
 }
@@ -231,6 +234,15 @@ bool instance_set_note(shared_instance *p, uint64_t count, const char *text)
     if (p->note == NULL) return false;
     p->note_count = count;
     return true;
+}
+
+/* --- Descriptions ----------------------------------------------------------------------------- */
+
+bool instance_is_equal_map(const shared_instance *x, const shared_instance *y)
+{
+    const instance_description *of_x = x->description, *of_y = y->description;
+    return x->map == y->map && of_x != NULL && of_y != NULL && of_x->size == of_y->size &&
+           memcmp(of_x->bytes, of_y->bytes, of_x->size) == 0;
 }
 
 /* --- Numbers ---------------------------------------------------------------------------------- */

@@ -40,6 +40,12 @@ typedef struct instance_shelf {
     instance_kept kept[INSTANCE_KEPT_MAX];
 } instance_shelf;
 
+/* What an instance was made from; equal descriptions are of equal instances of a type. */
+typedef struct instance_description {
+    size_t size; /* of the bytes */
+    unsigned char bytes[];
+} instance_description;
+
 typedef struct shared_instance {
     const imp_surface_type *surface; /* NULL: it is a map */
     const imp_map_type *map;         /* NULL: it is a surface */
@@ -58,6 +64,7 @@ typedef struct shared_instance {
     char *note;            /* the items, with the parameter's name; NULL: none */
     fixed_numbers numbers; /* for its formula */
     instance_shelf *shelf; /* of a surface of several pieces; else NULL */
+    instance_description *description; /* of a map that reads no file; else NULL */
     /* Under the clock of a scene parameter (clocked.h); held. NULL: it follows time. */
     struct shared_instance *inner;
 } shared_instance;
@@ -81,6 +88,9 @@ const char *instance_label(const shared_instance *p);
 
 /* Copies a note of create, once: `count` items, described by the text. False: no memory. */
 bool instance_set_note(shared_instance *p, uint64_t count, const char *text);
+
+/* Whether two maps are of one type and have equal descriptions. */
+bool instance_is_equal_map(const shared_instance *x, const shared_instance *y);
 
 /* Returns how many numbers a row has: 0 if its shape is not fixed, or it has none. */
 size_t fixed_numbers_of_row(const imp_parameter *row);

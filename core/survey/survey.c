@@ -138,6 +138,7 @@ imp_survey *imp_survey_new(imp_scene *scene, const imp_options *options,
     imp_survey *s = scene != NULL && options != NULL ? malloc(sizeof *s) : NULL;
     if (scene == NULL || options == NULL) return error_set_missing(error, "imp_survey_new"), NULL;
     if (s == NULL) return error_set_memory(error), NULL;
+    scene_begin_use(scene);
     const fp_environment environment = fp_environment_enter();
     const imp_code code = fill(s, scene, options, asked, how, error);
     fp_environment_leave(&environment);
@@ -156,6 +157,7 @@ void imp_survey_free(imp_survey *s)
     free(s->extents);
     free(s->first);
     free(s->lo);
+    scene_end_use(s->scene);
     free(s);
 }
 

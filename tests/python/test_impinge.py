@@ -43,6 +43,37 @@ def test_text_and_builder_give_the_same_bits():
     assert pair.solve().t == flying().build().solve().t
 
 
+def test_a_scene_whose_numbers_change_is_the_scene_that_is_built_so():
+    def pair(radius, rate, velocity):
+        return impinge.Scene.from_json(
+            '{"time":[0,1],"define":{"ball":[{"type":"sphere","radius":%r,"maps":[{"type":"rotate",'
+            '"axis":[0,0,1],"rate":%r}]}]},"bodies":[{"name":"a","surfaces":["ball"]},{"name":"b","surfaces":'
+            '[{"type":"sphere","radius":1,"center":[3,0.1,0]}],"maps":[{"type":"translate","velocity":%r}]}]}'
+            % (radius, rate, velocity))
+
+    def told(scene):
+        result = scene.solve()
+        return result.t, result.gap, result.a.point, result.stats.pairs
+
+    scene, expected = pair(0.5, 1.0, [-2.0, 0.0, 0.0]), pair(0.75, 2.0, [-1.5, 0.25, 0.0])
+    first = told(scene)
+    scene.set_values("a", {"radius": 0.75}, surface=0)
+    scene.set_values("a", {"axis": [0, 0, 1], "rate": 2}, surface=0, map=0)
+    scene.set_values("b", {"velocity": numpy.array([-1.5, 0.25, 0])}, map=0)
+    assert told(scene) == told(expected) != first
+    again = impinge.Scene.from_json(scene.to_json())
+    assert told(again) == told(expected)
+    for wrong, words in (({"map": 1}, "has no map 1"), ({"surface": 1}, "has no surface 1"), ({}, "neither a surface"),
+                         ({"surface": -1}, "surface")):
+        with pytest.raises(impinge.UsageError, match=words):
+            scene.set_values("a", {"radius": 1}, **wrong)
+    with pytest.raises(impinge.SceneError, match="body 'a': surface 0: radius: got -1"):
+        scene.set_values("a", {"radius": -1}, surface=0)
+    with pytest.raises(impinge.UsageError, match="parameters: got 3"):
+        scene.set_values("a", 3, surface=0)
+    assert told(scene) == told(expected)
+
+
 def test_control_points_go_in_and_points_come_out_as_arrays():
     u, v = numpy.meshgrid(numpy.linspace(-1, 1, 4), numpy.linspace(-1, 1, 4), indexing="ij")
     points = numpy.stack([u, v, 0 * u], axis=-1).reshape(-1, 3)

@@ -23,6 +23,8 @@ def answers(scene: impinge.Scene) -> Optional[float]:
     if pairs[0].verdict == "hold":  # type: ignore[comparison-overlap]
         return None
     scene.clearance(requierd=2)  # type: ignore[call-arg]
+    scene.set_values("a", {"radius": 2}, surface=0, map=None)
+    scene.set_values("a", {"radius": 2}, surfaces=0)  # type: ignore[call-arg]
     scene.solve(max_pears=2)  # type: ignore[call-arg]
     scene.solve(max_pairs="2")  # type: ignore[arg-type]
     profile = scene.profile(10, progress=lambda progress: progress.pairs < 1000)

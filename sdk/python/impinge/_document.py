@@ -6,15 +6,32 @@
 A document is the object of a scene file whose names of files are absolute, so that it means the same
 wherever it is read."""
 
+import copy
 import json
 import os
-from typing import Any, Dict, List
+from typing import Any, Dict, List, Mapping, NamedTuple, Optional
 
 import numpy
 
 from ._registry import Registry
 
 Document = Dict[str, Any]
+
+
+class Where(NamedTuple):
+    """A surface of a body (no map), one of its own maps, or a map of the body (no surface), by number."""
+
+    body: int
+    surface: Optional[int]
+    map: Optional[int]
+
+
+class Change(NamedTuple):
+    """New parameters of a surface or a map; relative names of files begin at the folder."""
+
+    parameters: Dict[str, Any]
+    folder: str
+
 
 _WIDTH = 100  # of a line, where that can be kept
 
@@ -52,6 +69,36 @@ def resolve_stage(type_name: str, parameters: Dict[str, Any], folder: str) -> No
     for name in Registry.files_of(type_name):
         if isinstance(parameters.get(name), str):
             parameters[name] = os.path.join(folder, parameters[name])
+
+
+def changed(document: Document, changes: Mapping[Where, Change]) -> Document:
+    """A copy in which these surfaces and maps have other parameters."""
+    made = copy.deepcopy(document)
+    for where, change in changes.items():
+        stage: Document = made["bodies"][where.body]
+        if where.surface is not None:
+            stage = _stage_of(made, stage, "surfaces", where.surface)
+        if where.map is not None:
+            stage = _stage_of(made, stage, "maps", where.map)
+        kept = {name: stage[name] for name in ("type", "maps") if name in stage}
+        stage.clear()
+        stage.update(kept, **change.parameters)
+        resolve_stage(stage["type"], stage, change.folder)
+    return made
+
+
+def _stage_of(made: Document, owner: Document, key: str, index: int) -> Document:
+    """A surface or a map of a list, in which definitions are replaced by what they stand for."""
+    owner[key] = _written_out(made, owner.get(key, []))
+    stage: Document = owner[key][index]
+    return stage
+
+
+def _written_out(made: Document, stages: List[Any]) -> List[Any]:
+    out: List[Any] = []
+    for stage in stages:
+        out += _written_out(made, made["define"][stage]) if isinstance(stage, str) else [copy.deepcopy(stage)]
+    return out
 
 
 def _plain(value: Any) -> Any:

@@ -7,7 +7,7 @@ import ctypes as c
 import os
 import threading
 import weakref
-from typing import Any, Callable, Optional, Set, Tuple
+from typing import Any, Callable, Dict, Optional, Set, Tuple
 
 from . import _document as document
 from . import _library as lib
@@ -39,6 +39,7 @@ class Handle:
         self._make_document, self._make_address = make_document, make_address
         self._lock = threading.Lock()
         self.users: Set[object] = set()  # queries that are open
+        self.changes: Dict[document.Where, document.Change] = {}  # since it was made
         self._take(address)
         Handle._all.add(self)
 
@@ -59,7 +60,8 @@ class Handle:
 
     def document(self) -> document.Document:
         """The scene as the object of a scene file, names of files absolute."""
-        return self._make_document()
+        made = self._make_document()
+        return document.changed(made, self.changes) if self.changes else made
 
     def text(self) -> str:
         """The scene as the text of a scene file, on one line."""

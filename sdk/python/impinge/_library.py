@@ -262,6 +262,7 @@ _FUNCTIONS = {
     "imp_builder_group": (c.c_int, _P, _N, _S, _E),
     "imp_builder_ignore": (c.c_int, _P, _S, _S, _E),
     "imp_builder_finish": (_P, _P, _E),
+    "imp_scene_set_values": (c.c_int, _P, _N, _N, _N, _A, _N, _E),
     "imp_scene_parameter": (c.c_bool, _P, _N, c.POINTER(SceneParameter)),
     "imp_scene_at": (_P, _P, c.POINTER(_D), _E),
     "imp_survey_options_get_default": (c.c_int, c.POINTER(SurveyOptions), _E),

@@ -10,6 +10,7 @@ from typing import Any, Dict, Iterable, Iterator, List, Mapping, Optional, Seque
 
 import numpy
 
+from . import _arguments as arguments
 from . import _document as document
 from . import _files
 from . import _library as lib
@@ -157,6 +158,28 @@ class Scene:
         """The parameters with ranges of one value."""
         ranges = {name: [value, value] for name, value in zip(self.parameters, chosen)}
         return {**self._handle.document(), "parameters": ranges}
+
+    # --- Numbers that change --------------------------------------------------------------------
+
+    def set_values(self, body: str, parameters: Mapping[str, Any], *, surface: Optional[int] = None,
+                   map: Optional[int] = None) -> None:
+        """Gives a surface of a body, one of that surface's own maps (`surface` and `map`) or a map of the
+        body (`map` alone), counted from 0, new parameters, for a loop that asks again and again: all of
+        them, in the type's units; those not given are as if absent, and names of files begin at the working
+        directory. The scene then answers like one that is built so, and keeps what it knows of all other
+        surfaces. Copies of the scene change with it. Wrong parameters, and those of a scene that is being
+        asked by another thread or has `parameters` of its own, are an error, and change nothing."""
+        index = self._index(body)
+        if not isinstance(parameters, Mapping):
+            raise values.refuse("parameters", parameters, "a dict from names to values")
+        numbers = [None if n is None else values.count(name, n) for name, n in (("surface", surface), ("map", map))]
+        packed, error = arguments.pack(parameters), lib.Error()
+        none = c.c_size_t(-1).value
+        check(lib.library.imp_scene_set_values(self._handle.address, index,
+                                               *(none if n is None else n for n in numbers),
+                                               packed.array, packed.size, c.byref(error)), error)
+        where = document.Where(index, numbers[0], numbers[1])
+        self._handle.changes[where] = document.Change(packed.written, os.getcwd())
 
     # --- Points -----------------------------------------------------------------------------------
 
