@@ -165,7 +165,7 @@ static void put_order(file *f, const candidate *c)
     for (size_t k = 0; k < count; ++k) put_count(f, hierarchy_order(root->many->of)[k]);
 }
 
-/* Whether the candidate's tree holds one moment in place of all times. */
+/* Returns whether the candidate's k-d tree covers one moment in place of all times. */
 static bool rests(const file *f, const candidate_pair *both)
 {
     const imp_region *r = &tree_root(both->side[0]->tree)->region;
@@ -196,7 +196,9 @@ static bool is_pair(const candidate_pair *p, const size_t body[2], const size_t 
            p->side[0]->surface == at[0] && p->side[1]->surface == at[1];
 }
 
-/* Compares two candidate pairs by the order of their surfaces in the scene. */
+/* Writes a tree for each pair of surfaces that is tested, in the order of the scene. Candidate
+ * pairs are listed in that order, too; a pair of surfaces that is none of them has a tree of one
+ * leaf. */
 static void put_trees(file *f, const proof_trees *trees)
 {
     const candidate_list *list = f->search->list;

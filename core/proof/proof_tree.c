@@ -107,7 +107,8 @@ static double part_of(double lo, double hi, double t) { return (t - lo) / (hi - 
 
 static void put_record(writer *w, uint32_t index, double lo, double hi);
 
-/* Returns how a record was divided: by its last child, since the search gave up earlier ones. */
+/* Returns the child of a record that is one half of it; NONE: there is none. The last child says
+ * how the record was divided, since the search gave up earlier ones. */
 static uint32_t half_of(const writer *w, uint32_t index, int half)
 {
     const proof_trees *t = w->trees;
@@ -130,7 +131,7 @@ static void put_halves(writer *w, uint32_t index, double lo, double hi)
     }
 }
 
-/* Parts of a window, of which the later may have been made first or alone. */
+/* Writes the parts of a window, of which the later may have been made first or alone. */
 static void put_spans(writer *w, uint32_t index, double lo, double hi)
 {
     const proof_trees *t = w->trees;
@@ -163,8 +164,8 @@ static void put_inner(writer *w, uint32_t index, double lo, double hi)
         put_halves(w, index, lo, hi);
 }
 
-/* The part of the cell that the test cut off is a leaf. Splits are rounded so that what was left is
- * in what goes on. */
+/* Writes a record over the times [lo, hi]. What the test cut off of these times is a leaf. Splits
+ * are rounded outward, so that the window that was left is inside of the part that goes on. */
 static void put_record(writer *w, uint32_t index, double lo, double hi)
 {
     const proof_record *r = &w->trees->log->at[index];

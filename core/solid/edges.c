@@ -85,8 +85,8 @@ int edge_compare(const edges *e, size_t i, size_t j)
     return opposite ? -1 : same ? 1 : 0;
 }
 
-/* The nearest point of edge j to x between its points a and b (numbers, not whole), by golden
- * section. Returns its distance, and sets *where to its number. */
+/* Finds the nearest point of edge j to x between its points a and b (numbers, not whole), by golden
+ * section search. Returns its distance, and sets *where to its number. */
 static double refine(const edges *e, size_t j, double a, double b, vec3 x, double *where)
 {
     const double ratio = 0.6180339887498949;

@@ -112,18 +112,17 @@ static imp_code include_surface(const inside_search *s, size_t body, size_t inde
 static imp_code box_of(const inside_search *s, size_t body, double t, solid_box *box,
                        tree_growth *growth, imp_error *error)
 {
-    *box = (solid_box){{INFINITY, INFINITY, INFINITY}, {-INFINITY, -INFINITY, -INFINITY}};
+    *box = solid_box_none();
     for (size_t k = 0; k < scene_surface_count(s->plan.scene, body); ++k) {
         double from, to;
         imp_model model[3];
+        solid_box one;
         surface_existence(scene_surface(s->plan.scene, body, k), &from, &to);
         if (!(from <= t && t <= to)) continue;
         const imp_code code = include_surface(s, body, k, t, model, growth, error);
         if (code != IMP_SUCCESS) return code;
-        for (int i = 0; i < 3; ++i) {
-            if (!(model[i].lo >= box->lo[i])) box->lo[i] = model[i].lo;
-            if (!(model[i].hi <= box->hi[i])) box->hi[i] = model[i].hi;
-        }
+        solid_box_around(model, &one);
+        solid_box_add(box, &one);
     }
     return IMP_SUCCESS;
 }
@@ -154,7 +153,7 @@ static imp_code make_solid(const holding *h, solid **made)
     return code;
 }
 
-/* Holds samples of a patch against the solid until one tells the side of its component. */
+/* Tests samples of a patch until one decides on which side of the solid its component is. */
 static imp_code judge_patch(const holding *h, size_t index, inside_answer *answer)
 {
     const patch_samples *s = &h->parts->samples[index];

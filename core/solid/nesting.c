@@ -16,8 +16,8 @@
 
 /* --- Do shells intersect? --------------------------------------------------------------------- */
 
-/* Regions looked at for two patches, and pairs of patches of two shells, before it counts as
- * unknown whether they intersect. */
+/* Regions that are examined for two patches, and pairs of patches of two shells, before it counts
+ * as unknown whether they intersect. */
 enum { REGIONS_MAX = 1 << 15 };
 #define PATCH_PAIRS_MAX 1e9
 
@@ -44,7 +44,8 @@ static double size_of(const solid_box *box)
     return most;
 }
 
-/* Halves a region along the parameter, u or v, that is the wider part of its domain. */
+/* Chooses the parameter, u or v, of which the region is the wider part of the domain, if it can be
+ * split there; else the other. False: neither can be split. */
 static bool parameter_of(const piece_of *x, parameter *j)
 {
     const double u = x->region.d[0] / (x->p->hi[0] - x->p->lo[0]);
@@ -56,14 +57,14 @@ static bool parameter_of(const piece_of *x, parameter *j)
 
 static imp_code bound_piece(const parting *w, piece_of *x)
 {
-    const imp_code code = solid_include(w->s, x->p, &x->region, x->model, w->error);
+    const imp_code code = patch_include(x->p, &x->region, x->model, w->error);
     if (code == IMP_SUCCESS) solid_box_around(x->model, &x->box);
     return code;
 }
 
-/* Whether heights of all points of one piece along the normal of either differ from all of the
- * other's: between walls that run along each other, boxes would have to be as small as the wall is
- * thin. A NaN parts nothing. */
+/* Returns whether the heights of all points of one piece, along the normal of either, differ from
+ * those of the other. Boxes alone would have to be as small as the wall between two surfaces that
+ * run along each other is thin. A NaN parts nothing. */
 static bool planes_part(const piece_of *a, const piece_of *b)
 {
     for (int side = 0; side < 2; ++side) {
@@ -136,10 +137,10 @@ static imp_code part_shells(const solid *s, size_t x, size_t y, bool *apart, boo
 
 /* --- Which shell is inside which? ------------------------------------------------------------- */
 
-/* Whether a shell is wholly inside another. */
+/* The answer whether a shell is wholly inside of another. */
 typedef enum nesting { NESTING_UNKNOWN, NESTING_INSIDE, NESTING_NOT } nesting;
 
-/* Points of each patch, in rows, and of a shell, that are held against another shell. */
+/* Points of each patch, in rows, and of a whole shell, that are tested against another shell. */
 enum { ROWS = 5, POINTS_MAX = 1000 };
 
 /* What is known of where shell x lies in shell y. */
@@ -147,12 +148,12 @@ typedef struct comparison {
     const solid *s;
     size_t x, y; /* shells */
     bool tried;  /* to part the two */
-    int points;  /* looked at */
+    int points;  /* that were examined */
     nesting found;
 } comparison;
 
-/* Point k of the patch decides if it is outside of the other shell, or inside where the two are
- * apart. */
+/* Tries to decide by point k of a patch of x: it shows that x is not inside of y if it is outside,
+ * and that x is inside if it is inside and the two shells do not intersect. */
 static imp_code compare_point(comparison *c, const patch *p, int k, bool *stopped, imp_error *error)
 {
     const double uv[1][2] = {{patch_between(p->lo[0], p->hi[0], k / ROWS, ROWS - 1),
@@ -193,7 +194,8 @@ static imp_code is_inside(const solid *s, size_t x, size_t y, nesting *found, bo
     return code;
 }
 
-/* Lengthens chains until none grows: no shell is inside itself. */
+/* Sets depth[x] to the length of the longest chain of shells around x. The rounds end because no
+ * shell is inside itself. */
 static void measure_chains(const bool *inside, size_t count, size_t *depth)
 {
     bool grows = true;

@@ -41,6 +41,18 @@ imp_code patch_eval(const patch *p, double t, size_t n, const double (*uv)[2], v
     return IMP_SUCCESS;
 }
 
+imp_code patch_include(const patch *p, const imp_region *region, imp_model model[3],
+                       imp_error *error)
+{
+    const surface *s = p->surface;
+    const imp_status status = surface_include(s, region, model);
+    if (status == IMP_STATUS_OK || status == IMP_STATUS_UNBOUNDED) return IMP_SUCCESS;
+    surface_fault(s, error, "over u [%.17g, %.17g], v [%.17g, %.17g], t = %.17g: %s", region->lo[0],
+                  region->hi[0], region->lo[1], region->hi[1], region->lo[2],
+                  surface_status_message(s, status).text);
+    return surface_set_code(status, error);
+}
+
 void patch_corner(const patch *p, int k, double at[2])
 {
     at[0] = k == 1 || k == 2 ? p->hi[0] : p->lo[0];

@@ -41,6 +41,11 @@ enum { PATCH_POINTS_MAX = 129 };
 imp_code patch_eval(const patch *p, double t, size_t n, const double (*uv)[2], vec3 *x,
                     double *errors, imp_error *error);
 
+/* Computes the models of a patch over a region, which is at one time; infinite where there are
+ * none. Fails as the plugin does. */
+imp_code patch_include(const patch *p, const imp_region *region, imp_model model[3],
+                       imp_error *error);
+
 /* Sets *at to the corner k of the domain, counter-clockwise from (lo, lo): side k leads from corner
  * k to corner k + 1. */
 void patch_corner(const patch *p, int k, double at[2]);

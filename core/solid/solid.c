@@ -47,18 +47,6 @@ void solid_free(solid *s)
 
 /* --- Boxes ------------------------------------------------------------------------------------ */
 
-imp_code solid_include(const solid *s, const patch *p, const imp_region *region, imp_model model[3],
-                       imp_error *error)
-{
-    const imp_status status = surface_include(p->surface, region, model);
-    if (status != IMP_STATUS_OK && status != IMP_STATUS_UNBOUNDED) {
-        surface_fault(p->surface, error, "at t = %.17g: %s", s->patches.t,
-                      surface_status_message(p->surface, status).text);
-        return surface_set_code(status, error);
-    }
-    return IMP_SUCCESS;
-}
-
 void solid_box_around(const imp_model model[3], solid_box *box)
 {
     for (int i = 0; i < 3; ++i) {
@@ -67,7 +55,7 @@ void solid_box_around(const imp_model model[3], solid_box *box)
     }
 }
 
-static void add_box(solid_box *to, const solid_box *box)
+void solid_box_add(solid_box *to, const solid_box *box)
 {
     for (int i = 0; i < 3; ++i) {
         if (!(box->lo[i] >= to->lo[i])) to->lo[i] = box->lo[i];
@@ -80,18 +68,16 @@ static imp_code make_boxes(solid *s, imp_error *error)
     const patches *p = &s->patches;
     s->boxes = malloc((p->count + s->shells.count + 1) * sizeof *s->boxes);
     if (s->boxes == NULL) return error_set_memory(error);
-    for (size_t k = 0; k < s->shells.count; ++k)
-        s->boxes[p->count + k] =
-            (solid_box){{INFINITY, INFINITY, INFINITY}, {-INFINITY, -INFINITY, -INFINITY}};
+    for (size_t k = 0; k < s->shells.count; ++k) s->boxes[p->count + k] = solid_box_none();
     for (size_t k = 0; k < p->count; ++k) {
         const patch *one = &p->patch[k];
         const imp_region region = region_make((double[3]){one->lo[0], one->lo[1], p->t},
                                               (double[3]){one->hi[0], one->hi[1], p->t});
         imp_model model[3];
-        const imp_code code = solid_include(s, one, &region, model, error);
+        const imp_code code = patch_include(one, &region, model, error);
         if (code != IMP_SUCCESS) return code;
         solid_box_around(model, &s->boxes[k]);
-        add_box(&s->boxes[p->count + s->shells.facing[k].shell], &s->boxes[k]);
+        solid_box_add(&s->boxes[p->count + s->shells.facing[k].shell], &s->boxes[k]);
     }
     return IMP_SUCCESS;
 }
@@ -160,7 +146,7 @@ imp_code solid_wind(const solid *s, size_t shell, vec3 x, double off, winding_nu
 
 /* --- Not closed ------------------------------------------------------------------------------- */
 
-/* "; they wind 0.36 times around (0, 0, 0)", as far as their orientation is known. */
+/* Writes "; they wind 0.36 times around (0, 0, 0)", or nothing if that is not known. */
 static imp_code tell_number(const solid *s, vec3 x, char text[160], imp_error *error)
 {
     winding_sum sum;
@@ -214,12 +200,14 @@ static imp_code refuse(const solid *s, vec3 x, imp_error *error)
 
 /* --- On which side? --------------------------------------------------------------------------- */
 
-/* Lists the shells that wind around a point. */
+/* The shells that wind around a point, and in how many of them each one is. */
 typedef struct enclosing {
     size_t *shell, *depth;
     size_t count;
 } enclosing;
 
+/* Lists the shells that wind around x. *side becomes something else than OUTSIDE if one of them
+ * does not bound a volume, or is so near to x that this cannot be told. */
 static imp_code find_enclosing(const solid *s, vec3 x, double off, enclosing *around,
                                solid_side *side, bool *stopped, imp_error *error)
 {
@@ -240,6 +228,8 @@ static imp_code find_enclosing(const solid *s, vec3 x, double off, enclosing *ar
     return IMP_SUCCESS;
 }
 
+/* Decides on the side from the shells around x: those at even depth are outer walls, and those at
+ * odd depth are walls of cavities in them. */
 static imp_code count_walls(const solid *s, enclosing *around, solid_side *side, bool *stopped,
                             imp_error *error)
 {

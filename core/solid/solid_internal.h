@@ -41,13 +41,17 @@ imp_code solid_wind(const solid *s, size_t shell, vec3 x, double off, winding_nu
 imp_code solid_depths(const solid *s, const size_t *shell, size_t count, size_t *depth, bool *known,
                       bool *stopped, imp_error *error);
 
-/* Computes the models of a part of a patch; infinite where there are none. Fails as the plugin
- * does. */
-imp_code solid_include(const solid *s, const patch *p, const imp_region *region, imp_model model[3],
-                       imp_error *error);
-
-/* Sets *box to the ranges of the three models. */
+/* Sets *box to the ranges of the three models; infinite where they are NaN. */
 void solid_box_around(const imp_model model[3], solid_box *box);
+
+/* Returns a box without points. */
+static inline solid_box solid_box_none(void)
+{
+    return (solid_box){{INFINITY, INFINITY, INFINITY}, {-INFINITY, -INFINITY, -INFINITY}};
+}
+
+/* Enlarges a box to contain another. */
+void solid_box_add(solid_box *to, const solid_box *box);
 
 static inline bool solid_boxes_apart(const solid_box *a, const solid_box *b)
 {
@@ -56,7 +60,7 @@ static inline bool solid_boxes_apart(const solid_box *a, const solid_box *b)
     return false;
 }
 
-/* Whether all points within `off` of x are outside of the box, and so of what is in it. */
+/* Returns whether all points within `off` of x are outside of the box. */
 static inline bool solid_box_excludes(const solid_box *box, vec3 x, double off)
 {
     for (int i = 0; i < 3; ++i)

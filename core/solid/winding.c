@@ -50,17 +50,6 @@ static void give_up(part *w)
 
 /* --- Models ----------------------------------------------------------------------------------- */
 
-static imp_code include(const part *w, const imp_region *region, imp_model model[3])
-{
-    const surface *s = w->p->surface;
-    const imp_status status = surface_include(s, region, model);
-    if (status == IMP_STATUS_OK || status == IMP_STATUS_UNBOUNDED) return IMP_SUCCESS;
-    surface_fault(s, w->error, "over u [%.17g, %.17g], v [%.17g, %.17g], t = %.17g: %s",
-                  region->lo[0], region->hi[0], region->lo[1], region->hi[1], w->view->t,
-                  surface_status_message(s, status).text);
-    return surface_set_code(status, w->error);
-}
-
 /* Returns how far x is from the models' box at least. A NaN counts as inside. One difference, a
  * square each, two sums and a root: (2 + 1 + 2) / 2 + 1 < 4. */
 PAD_COVERS(8, 4);
@@ -112,7 +101,7 @@ typedef struct stretch {
     bool backward;
 } stretch;
 
-/* Bounds the sliver of a stretch, of which `model` holds. False: it should be divided. Roundings: a
+/* Bounds the sliver of a stretch that has these models. False: it should be divided. Roundings: a
  * sum, a difference, 2 products, a square, a quotient. */
 PAD_COVERS(16, 8);
 static bool take_stretch(part *w, const stretch *s, const imp_model model[3], bool must)
@@ -154,7 +143,7 @@ static imp_code divide_stretch(part *w, const stretch *s, vec3 end)
 static imp_code follow(part *w, const stretch *s, vec3 end)
 {
     imp_model model[3];
-    const imp_code code = include(w, &s->region, model);
+    const imp_code code = patch_include(w->p, &s->region, model, w->error);
     if (code != IMP_SUCCESS) return code;
     const bool must = !region_can_split(&s->region, (parameter)s->j) || ++w->work > WORK_MAX;
     if (!take_stretch(w, s, model, must)) return divide_stretch(w, s, end);
@@ -222,8 +211,8 @@ static parameter parameter_to_split(const imp_region *region, const imp_model mo
     return region_can_split(region, second) ? second : PARAMETER_T;
 }
 
-/* Whether a part is far enough from x to be replaced as a whole: small against its distance, or
- * models and chords along it are of no use. */
+/* Returns whether a part is far enough from x to be replaced as a whole. It has to be small against
+ * its distance, or models and chords along it are of no use. */
 #define PARTS_SIZE 8 /* of its distance */
 static bool is_far(const imp_model model[3], double away)
 {
@@ -240,7 +229,7 @@ static imp_code add_region(part *w, const imp_region *region)
         give_up(w);
         return IMP_SUCCESS;
     }
-    imp_code code = include(w, region, model);
+    imp_code code = patch_include(w->p, region, model, w->error);
     if (code != IMP_SUCCESS) return code;
     const double away = distance_lower(w, model);
     if (is_far(model, away)) return take_part(w, region, model, away);
