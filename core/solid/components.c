@@ -38,7 +38,7 @@ static size_t find_root(size_t *up, size_t i)
     return i;
 }
 
-/* Corners by the cell they are in: a hash table, open addressing. */
+/* A hash table, open addressing, of patches by the cell that a corner of theirs is in. */
 typedef struct cells {
     double (*key)[3];
     size_t *patch; /* SIZE_MAX: the slot is free */

@@ -35,15 +35,15 @@ static inline const vec3 *edge_points(const edges *e, size_t i)
     return e->at + i * (size_t)(e->steps + 1);
 }
 
-/* Whether the edge is a single point, as at the pole of a sphere. */
+/* Returns whether the edge is a single point, as at the pole of a sphere. */
 bool edge_is_point(const edges *e, size_t i);
 
-/* 1: the two run through the same points in the same direction; -1: in opposite ones; 0: neither. A
- * point has no direction. */
+/* Compares the points of two edges. 1: the two run through the same points in the same direction;
+ * -1: in opposite ones; 0: neither. A point has no direction. */
 int edge_compare(const edges *e, size_t i, size_t j);
 
-/* Whether the point k of edge i lies on edge j, and if so in which direction the two run there, 1
- * or -1; 0: it does not. Evaluates the patch. */
+/* Finds out whether point k of edge i lies on edge j. 1: it does, and the two run in the same
+ * direction there; -1: in opposite directions; 0: it does not. Evaluates the patch. */
 int edge_passes(const edges *e, size_t i, int k, size_t j);
 
 /* Sets partner[i], for each edge i that is no point, to the one other edge along the same seam.

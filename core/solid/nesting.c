@@ -194,8 +194,8 @@ static imp_code is_inside(const solid *s, size_t x, size_t y, nesting *found, bo
     return code;
 }
 
-/* Sets depth[x] to the length of the longest chain of shells around x. The rounds end because no
- * shell is inside itself. */
+/* Sets depth[x] to the length of the longest chain of shells around x. A chain contains
+ * each shell once, so that `count` rounds are enough. */
 static void measure_chains(const bool *inside, size_t count, size_t *depth)
 {
     bool grows = true;

@@ -53,8 +53,8 @@ static const part *next_part(const piece *all, const part *p, const box3 *b)
     return NULL;
 }
 
-/* Whether a part of a surface begins when the claim ends, or ends when it begins, and the box has a
- * face in common with it: no neighbouring box holds that face. */
+/* Returns whether a part of a surface begins when the claim ends, or ends when it begins, and the
+ * box has a face in common with it: no neighbouring box holds that face. */
 static bool touches_end(const place *p, const piece *all, const box3 *b)
 {
     for (size_t k = 0; k < all->count; ++k) {
@@ -75,8 +75,8 @@ static const piece *piece_of(const place *p, size_t stage_index)
     return &g->pieces[stage_index == 0 ? p->piece : 0];
 }
 
-/* Computes a formula of an instance; steps that depend only on what was the same the last time are
- * not computed again: most of a motion is a matter of time alone. */
+/* Computes a formula of an instance. Steps whose variables have not changed since the last time are
+ * not computed again: most steps of a motion depend on time alone. */
 static void compute_part(const place *p, size_t stage_index, const formula *f, const box3 *where,
                          const double at[3], formula_boxes *given, jet out[3], jet centre[3])
 {
@@ -198,8 +198,8 @@ static bool is_affine(const part *p, ld_interval t, jet room[])
     return affine && !is_undefined(out);
 }
 
-/* The columns of J as jets of t: where an affine map takes the unit vectors, less where it takes
- * 0. */
+/* Computes the columns of J as jets of t: where an affine map takes the unit vectors, minus where
+ * it takes 0. */
 static void columns(const part *p, ld_interval t, jet room[], jet j[3][3])
 {
     jet origin[3];
@@ -212,7 +212,7 @@ static void columns(const part *p, ld_interval t, jet room[], jet j[3][3])
     }
 }
 
-/* The element i, k of J^T J - 1. */
+/* Returns the element i, k of J^T J - 1. */
 static jet gram(jet j[3][3], int i, int k)
 {
     jet sum = jet_constant(1, ld_interval_of(i == k ? -1 : 0));

@@ -50,12 +50,12 @@ typedef struct place {
 enclosed enclose(const place *p, const box3 *where, const double at[3], jet out[3], jet centre[3],
                  split *divide);
 
-/* Returns the least box of u and v that holds the piece; t is left. */
+/* Sets u and v of *all to the least box that contains the piece; t is not changed. */
 void piece_box(const place *p, box3 *all);
 
-/* An upper bound d of |J^T J - 1| for the Jacobian J of a map, at all times from lo to hi: it is
- * x -> R(t) x + c(t), and shrinks no length by more than the root of 1 - d. INFINITY: it may not
- * be. */
+/* Returns an upper bound d of |J^T J - 1| for the Jacobian J of a map, at all times from lo to hi.
+ * If d < 1, the map is affine at each time, and multiplies no length by less than the root of 1 -
+ * d. INFINITY: it may not be affine. */
 double map_deviation_upper(const statement *s, size_t map, double lo, double hi, jet *room);
 
 #endif

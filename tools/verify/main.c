@@ -113,7 +113,8 @@ static bool start(const request *asked, unsigned share, helper *h)
     _exit(told ? HOLDS : REFUSED);
 }
 
-/* The earliest refusal counts; a process that told nothing has proved nothing. */
+/* Waits for a process and adds what it found. The earliest refusal counts; a process that told
+ * nothing has proved nothing. */
 static void join(helper *h, outcome *all)
 {
     outcome told;
@@ -155,7 +156,8 @@ static bool verify_by_all(const request *asked, statement *s, outcome *all)
 
 /* --- Receipts --------------------------------------------------------------------------------- */
 
-/* Whether the certificate is of this scene and version; says what has changed. */
+/* Returns HOLDS if the certificate was written of this scene by this version; else prints what has
+ * changed. */
 static int check_receipt(const request *asked, const statement *s)
 {
     char own[SHA256_TEXT];

@@ -13,9 +13,8 @@
 
 /* The functions of the verifier's intervals
  * =========================================
- * They are those of MPFI, which rounds outward, with as many bits as a double has: what goes in and
- * comes out is exact. double_interval.h has the
- * operations. */
+ * They are those of MPFI, which rounds outward, with as many bits as a double has: operands and
+ * results are converted exactly. double_interval.h has the operations. */
 
 static ld_interval taken(mpfi_srcptr x)
 {
@@ -24,7 +23,7 @@ static ld_interval taken(mpfi_srcptr x)
 }
 
 typedef int unary(mpfi_ptr, mpfi_srcptr);
-/* What was computed last, by function and operand: halves of a cell share most of their
+/* Results that were computed last, by function and operand: halves of a cell share most of their
  * operands. */
 typedef struct memory {
     unary *f; /* NULL: nothing */
@@ -55,7 +54,7 @@ static ld_interval by(unary *f, ld_interval x)
     return m->y;
 }
 
-/* The part of x in [lo, hi]. False: there is none. */
+/* Reduces x to its part in [lo, hi]. False: there is none. */
 static bool clipped(ld_interval *x, double lo, double hi)
 {
     const bool some = x->lo <= hi && x->hi >= lo;
@@ -144,7 +143,8 @@ ld_interval ld_interval_power(ld_interval x, ld_interval y)
     return ld_interval_make(0, y.lo > 0 ? (z.hi > 1 ? z.hi : 1) : INFINITY);
 }
 
-/* By the half plane of the point; across the cut, or with (0, 0) inside, all angles. */
+/* Chooses the formula by the half plane that the box (x, y) is in; across the cut, or with (0, 0)
+ * inside, the result is the whole line. */
 ld_interval ld_interval_angle(ld_interval y, ld_interval x)
 {
     const ld_interval quarter = ld_interval_mul(ld_interval_pi(), ld_interval_of(0.5));

@@ -89,7 +89,7 @@ static void read_within(statement *s, input *in, char **rest)
 
 enum { KEY_APART = 1, KEY_FROM = 2, KEY_TO = 4, KEYS_NEEDED = 7 };
 
-/* What the answer promises beside that nothing is nearer: points. */
+/* The verdicts, and whether a claim with this verdict must name two points. */
 static const struct {
     const char *word;
     bool has_points;
@@ -101,7 +101,8 @@ static int compare_names(const void *x, const void *y)
     return strcmp(*(char *const *)x, *(char *const *)y);
 }
 
-/* Refuses two bodies of one name: what is found of one would be read as if it were of the other. */
+/* Refuses two bodies of one name, since a reader would take the answer for one as that for the
+ * other. */
 static bool check_names(const statement *s, input *in)
 {
     const char **sorted = malloc((s->body_count + 1) * sizeof *sorted);

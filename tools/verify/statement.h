@@ -11,14 +11,14 @@
  * The lines before the trees (core/CERTIFICATE.md): the claim, each instance of a type by its
  * formulas, and the surfaces as chains of instances. */
 
-/* A part of a formula and where it holds: u, v and t, or of a map t alone (the others infinite),
- * from lo to hi, which are outside of the exact ends, at least between those inside of them. */
+/* A part of a formula, and its domain: u, v and t, or for a map t alone (the others are infinite).
+ * The exact ends are between lo and inner_lo, and between inner_hi and hi. */
 typedef struct part {
     double lo[3], hi[3], inner_lo[3], inner_hi[3];
     formula *f;
 } part;
 
-/* A piece of an instance: its parts; none: it was not said what it is. */
+/* A piece of an instance. No parts: the certificate has no formula for it. */
 typedef struct piece {
     part *parts;
     size_t count;
@@ -67,10 +67,10 @@ typedef struct statement {
 bool statement_read(statement *s, input *in);
 void statement_free(statement *s);
 
-/* Whether the two bodies are never tested. */
+/* Returns whether the two bodies are not tested against each other. */
 bool statement_ignores(const statement *s, size_t a, size_t b);
 
-/* Whether each of its stages has formulas. */
+/* Returns whether the certificate has formulas for each stage of a surface. */
 bool statement_is_said(const statement *s, const chain *c);
 
 #endif

@@ -15,14 +15,14 @@ typedef struct walk {
     FILE *text;                       /* takes the tree, a line for each entry; NULL: none */
     void (*progress)(uint64_t bytes); /* called now and then; NULL: not */
     uint64_t leaves, pairs, tests;
-    bool *assumed; /* of each stage: whether it was needed and not said what it is */
+    bool *assumed; /* by stage: it is needed, and the certificate has no formula for it */
 } walk;
 
-/* Reads all trees and the end of the file, and proves what this process has a share in. False: the
- * input tells why. */
+/* Reads all trees and the end of the file, and proves the leaves that are this process's share.
+ * False: the input tells why. */
 bool walk_trees(walk *w);
 
-/* Proves that the points stated are so near. False: the input tells why. */
+/* Proves that the two points of the claim are as near as it says. False: the input tells why. */
 bool walk_points(walk *w);
 
 #endif
