@@ -619,7 +619,7 @@ START_TEST(what_some_values_violate_is_never_proved)
             random_scene(&random, random_between(&random, 0.02, 0.6), text, sizeof text, lo, hi);
         imp_clearance_options asked = imp_clearance_options_default();
         imp_survey_options how = imp_survey_options_default();
-        how.max_boxes = 100;
+        how.max_boxes = 10;
         asked.decide = true;
         asked.required = 1.0001 * nearest_of_values(&random, scene, lo, hi);
         if (asked.required > 0.01) {
