@@ -131,6 +131,7 @@ tools_cli = \
     tools/cli/project.c tools/cli/project.h \
     tools/cli/proof_output.c tools/cli/proof_output.h \
     tools/cli/query.c tools/cli/query.h \
+    tools/cli/query_options.c \
     tools/cli/reading_limit.c tools/cli/reading_limit.h \
     tools/cli/result.h \
     tools/cli/result_json.c \

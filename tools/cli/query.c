@@ -4,8 +4,6 @@
 
 #include "tools/cli/query.h"
 
-#include <math.h>
-#include <sched.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
@@ -21,8 +19,6 @@
 #include "tools/cli/result.h"
 #include "tools/cli/survey.h"
 #include "tools/cli/verbs.h"
-
-#include <impinge/baseline.h>
 
 /* Adds the plugins of the build tree, if the command runs from one, after those of the environment
  * and before the installed ones, so that a program just built uses the plugins built with it. */
@@ -78,92 +74,12 @@ void query_registry_free(imp_registry *registry)
     imp_registry_free(registry);
 }
 
-/* Methods, in the order of the choices of --method. */
-enum { METHOD_MODELS, METHOD_PAPER };
-
-exit_status query_check(const arguments *args)
-{
-    const option_value *gamma = arguments_option(args, "gamma");
-    const option_value *clear = arguments_option(args, "gamma-clear");
-    const option_value *method = arguments_option(args, "method");
-    const char *const paper_only[] = {"bounds", "rates"};
-    if (gamma != NULL && clear != NULL && clear->number[0] >= gamma->number[0])
-        return complain(EXIT_USAGE, args->verb->name,
-                        "--gamma-clear %s must be less than --gamma %s", clear->text, gamma->text);
-    if (arguments_option(args, "explain") != NULL && method != NULL &&
-        method->choice == METHOD_PAPER)
-        return complain(EXIT_USAGE, args->verb->name, "--explain belongs to --method models");
-    for (int i = 0; i < 2; ++i)
-        if (arguments_option(args, paper_only[i]) != NULL &&
-            (method == NULL || method->choice != METHOD_PAPER))
-            return complain(EXIT_USAGE, args->verb->name, "--%s belongs to --method paper",
-                            paper_only[i]);
-    return EXIT_ANSWERED;
-}
-
-/* Returns imp_options.baseline from --method, --bounds and --rates. */
-static uint32_t baseline_of(const arguments *args)
-{
-    const uint32_t volumes[] = {IMP_BASELINE_BOXES, IMP_BASELINE_SPHERES},
-                   rates[] = {0, IMP_BASELINE_COLUMN_RATES, IMP_BASELINE_CONSTANT_RATES};
-    if (arguments_choice(args, "method", 0) != METHOD_PAPER) return IMP_BASELINE_NONE;
-    return volumes[arguments_choice(args, "bounds", 0)] | rates[arguments_choice(args, "rates", 0)];
-}
-
-static bool goes_on(void *context, const imp_progress *p)
-{
-    (void)context;
-    progress_search(p);
-    return !interrupt_came();
-}
-
-/* Returns the rest of the time limit after reading; never 0, which would mean no limit. */
-static double seconds_left(double limit)
-{
-    if (!(limit > 0)) return limit;
-    const double left = limit - progress_seconds();
-    return left > 0 ? left : 0x1p-1000;
-}
-
-imp_options query_options(const imp_scene *scene, const arguments *args)
-{
-    imp_options o = imp_options_default(scene);
-    const option_value *time = arguments_option(args, "time");
-    if (time != NULL) o.t_start = time->number[0], o.t_end = time->number[1];
-    o.gamma = arguments_number(args, "gamma", o.gamma);
-    o.gamma_clear = arguments_number(args, "gamma-clear", o.gamma_clear);
-    o.max_pairs = arguments_count(args, "max-pairs", args->verb->max_pairs);
-    o.max_seconds = seconds_left(arguments_number(args, "max-seconds", o.max_seconds));
-    o.max_bytes = arguments_count(args, "max-bytes", o.max_bytes);
-    o.baseline = baseline_of(args);
-    o.audit = arguments_option(args, "audit") != NULL;
-    o.progress = goes_on;
-    return o;
-}
-
-exit_status query_check_times(const imp_scene *scene, const imp_options *options,
-                              const arguments *args)
-{
-    imp_error error = {0};
-    imp_options own = {.struct_size = (uint32_t)sizeof own};
-    if (!isnan(options->t_start)) return EXIT_ANSWERED;
-    imp_options_get_default(scene, &own, &error);
-    return complain_of(&error, args->verb->name);
-}
-
 imp_code query_run(imp_query *query, imp_result *result, imp_error *error)
 {
     const imp_code code = imp_query_step(query, 0, error);
     progress_wipe();
     *result = imp_query_result(query);
     return code;
-}
-
-void query_lend_threads(imp_options *options, crew *c)
-{
-    if (c->threads < 2) return;
-    options->parallel = crew_run;
-    options->parallel_context = c;
 }
 
 imp_code query_solve(imp_scene *scene, const arguments *args, imp_result *result, char **advice,
@@ -183,21 +99,6 @@ char *query_advice(const imp_query *query)
     const imp_result result = imp_query_result(query);
     if (result.verdict != IMP_VERDICT_UNDECIDED) return NULL;
     return explain_advice(query, result.reason, EXPLAIN_CONTACT);
-}
-
-size_t query_threads_asked(const arguments *args)
-{
-    return arguments_option(args, "threads") != NULL ? query_threads(args) : 1;
-}
-
-size_t query_threads(const arguments *args)
-{
-    enum { THREADS_MAX = 1024 };
-    const uint64_t asked = arguments_count(args, "threads", 0);
-    cpu_set_t usable;
-    int count = sched_getaffinity(0, sizeof usable, &usable) == 0 ? CPU_COUNT(&usable) : 1;
-    if (asked > 0) count = asked < THREADS_MAX ? (int)asked : THREADS_MAX;
-    return count > 0 ? (size_t)count : 1;
 }
 
 exit_status query_status(const imp_result *result, const arguments *args)
