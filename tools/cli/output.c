@@ -9,6 +9,7 @@
 
 #include <errno.h>
 #include <fcntl.h>
+#include <float.h>
 #include <math.h>
 #include <signal.h>
 #include <stdio.h>
@@ -89,6 +90,33 @@ const char *output_colour(output_tint tint)
 /* Characters of the number that the text begins with. */
 static size_t number_length(const char *text) { return strspn(text, "+-.0123456789eE"); }
 
+/* Returns the last two of the 17 digits that "%.17g" rounded a number to, whose trailing zeros the
+ * text may lack. */
+static int last_two_of_17(const char *text, size_t length)
+{
+    int last = 0, before = 0, digits = 0;
+    for (size_t k = 0; k < length && text[k] != 'e' && text[k] != 'E'; ++k) {
+        if (text[k] < '0' || text[k] > '9' || (digits == 0 && text[k] == '0')) continue;
+        before = last;
+        last = text[k] - '0';
+        digits += 1;
+    }
+    return digits == 17 ? 10 * before + last : digits == 16 ? 10 * last : 0;
+}
+
+/* Whether 15 digits may read back as the number that the 17 digits of the text stand for. Let U be
+ * the unit of the 17th digit, so that abs(x) < 1e17 U. Lemma: if S of 15 digits reads back as x,
+ * which is normal, then
+ *     abs(S - x) <= ulp(x) / 2 <= 2^-53 abs(x) < 11.2 U,
+ *     abs(D - x) <= U / 2 for the 17 digits D,
+ * and abs(S - D) <= 11 U, since S and D are whole multiples of U; S is one of 100 U, or ends a
+ * decade below D, which then ends in 00 to 11. */
+static bool may_have_15_digits(const char *text, size_t length, double number)
+{
+    const int last = last_two_of_17(text, length);
+    return last <= 11 || last >= 89 || fabs(number) < DBL_MIN;
+}
+
 /* Writes the number at the beginning of `from` to `to`, in the fewest digits that read back
  * exactly. Returns the number of characters written: at most those read. A text of up to 15
  * characters is one of 15 digits already, perhaps with a ".0" that Jansson adds to whole
@@ -104,7 +132,7 @@ static size_t write_shortest(const char *from, char *to)
     }
     const double number = strtod(from, NULL);
     memmove(to, from, length);
-    for (int digits = 15; digits < 17; ++digits) {
+    for (int digits = may_have_15_digits(from, length, number) ? 15 : 16; digits < 17; ++digits) {
         const size_t shorter = (size_t)snprintf(text, sizeof text, "%.*g", digits, number);
         if (shorter >= length || strtod(text, NULL) != number) continue;
         memcpy(to, text, shorter);
