@@ -4,9 +4,10 @@
 
 #include "tools/bench/bench.h"
 
-#include <math.h>
 #include <stdio.h>
 #include <string.h>
+
+#include "tools/bench/scenes.h"
 
 /* --- Methods ---------------------------------------------------------------------------------- */
 
@@ -30,19 +31,7 @@ static const bench_method *const usual[] = {&models, &boxes, &balls, NULL};
 static const bench_method *const all_rates[] = {
     &models, &boxes, &boxes_column, &boxes_constant, &balls, &balls_column, &balls_constant, NULL};
 
-/* --- Words ------------------------------------------------------------------------------------ */
-
-/* A vector as pipelines take it. */
-typedef struct vector_text {
-    char text[80];
-} vector_text;
-
-static vector_text vector(const double x[3], double scale)
-{
-    vector_text v;
-    snprintf(v.text, sizeof v.text, "%.17g,%.17g,%.17g", scale * x[0], scale * x[1], scale * x[2]);
-    return v;
-}
+/* --- Findings --------------------------------------------------------------------------------- */
 
 /* The default method's pairs a scene. */
 static double pairs_of(const bench_result *result) { return result->rows[0].tally.pairs.mean; }
@@ -59,28 +48,21 @@ static double growth(const bench_result *results, size_t end, size_t step)
 /* --- figure7: two spheres --------------------------------------------------------------------- */
 
 static const double gaps[] = {2, 1, 1e-1, 1e-2, 1e-3, 1e-4, 1e-5, 1e-6, 1e-7, 1e-8};
-enum { GAPS = sizeof gaps / sizeof *gaps, DIRECTIONS = 20 };
-
-/* Two unit spheres whose centres are 2 + gap apart along n. */
-static void add_gap(bench_cases *list, double gap, const double n[3])
-{
-    bench_add_pair(list, bench_text("sphere"),
-                   bench_text("sphere center=%s", vector(n, 2 + gap).text));
-}
+enum { GAPS = sizeof gaps / sizeof *gaps };
 
 static exit_status build_figure7(bench_cases *list, const bench_request *request)
 {
     for (int k = 0; k < GAPS; ++k) {
         bench_begin(list, gaps[k] / 2, -1, "axis, S = %g", gaps[k]);
-        add_gap(list, gaps[k], (double[3]){1, 0, 0});
+        bench_add_gap(list, gaps[k], (double[3]){1, 0, 0});
     }
     for (int k = 0; k < GAPS; ++k) {
         uint64_t state = 1990;
         bench_begin(list, gaps[k] / 2, -1, "oblique, S = %g", gaps[k]);
-        for (int d = 0; d < DIRECTIONS; ++d) {
+        for (int d = 0; d < BENCH_DIRECTIONS; ++d) {
             double n[3];
             bench_direction(&state, n);
-            add_gap(list, gaps[k], n);
+            bench_add_gap(list, gaps[k], n);
         }
     }
     return bench_built(list, request);
@@ -133,52 +115,15 @@ static const bench_set bicubic = {
 static const double widths[] = {0.2, 0.1, 0.05, 0.02, 0.01, 0.005, 0.002, 0.001};
 enum { WIDTHS = sizeof widths / sizeof *widths };
 
-/* Directions of longitude and latitude, (cos v cos u, cos v sin u, sin v). */
-static const double at_0_7_and_0_4[3] = {0.7044663052755917, 0.5933637833613874,
-                                         0.3894183423086505};
-static const double at_0_and_0_3[3] = {0.955336489125606, 0, 0.29552020666133955};
-static const double at_2_and_minus_0_5[3] = {-0.36520320693961544, 0.7979835653540055,
-                                             -0.479425538604203};
-
-/* Both bodies have two spikes. The first of each point at each other; their tips, 2 from the
- * centres, meet at t = 0.5. */
-static void add_head_on(bench_cases *list, double width)
-{
-    const double *n = at_0_7_and_0_4;
-    bench_scene *scene = bench_add_pair(
-        list, bench_text("spike width=%g spikes=[[0.7,0.4],[2.5,-0.6]]", width),
-        bench_text("spike width=%g spikes=[[3.8415926535897932,-0.4],[5.5,0.7]] ! translate "
-                   "offset=[[%s],[%s]]",
-                   width, vector(n, 5).text, vector(n, -2).text));
-    if (scene == NULL) return;
-    scene->has_reference = scene->meets = true;
-    scene->t = 0.5;
-}
-
-/* A's spike sweeps through longitude at latitude 0.3 and hits the flank of B's, whose axis crosses
- * its own at t = 0.5. */
-static void add_swing(bench_cases *list, double width)
-{
-    double centre[3];
-    for (int i = 0; i < 3; ++i) centre[i] = 1.5 * (at_0_and_0_3[i] - at_2_and_minus_0_5[i]);
-    bench_add_pair(list,
-                   bench_text("spike radius=0.5 height=1.5 width=%g spikes=[[0,0.3],[2,-1]] ! "
-                              "rotate angle=-0.5,1",
-                              width),
-                   bench_text("spike radius=0.5 height=1.5 width=%g spikes=[[2,-0.5],[4,1]] ! "
-                              "translate offset=[[%s]]",
-                              width, vector(centre, 1).text));
-}
-
 static exit_status build_spikes(bench_cases *list, const bench_request *request)
 {
     for (int k = 0; k < WIDTHS; ++k) {
         bench_begin(list, 1e-6, -1, "head-on, width %g", widths[k]);
-        add_head_on(list, widths[k]);
+        bench_add_head_on(list, widths[k]);
     }
     for (int k = 0; k < WIDTHS; ++k) {
         bench_begin(list, 1e-6, -1, "swing, width %g", widths[k]);
-        add_swing(list, widths[k]);
+        bench_add_swing(list, widths[k]);
     }
     return bench_built(list, request);
 }
@@ -203,32 +148,13 @@ static const bench_set spikes = {"spikes",
 
 /* --- tori: rotating --------------------------------------------------------------------------- */
 
-static const struct {
-    const char *name, *a, *b;
-} two_tori[] = {
-    {"flight", "torus ! rotate axis=1,2,3 rate=2",
-     "torus minor_radius=0.3 ! rotate axis=1,0.3,-0.5 rate=-3 ! translate "
-     "offset=[[3,1,0.5],[-3,-1,-0.4]]"},
-    {"tumble", "torus ! rotate axis=2,-1,0.5 rate=9",
-     "torus ! rotate axis=0.3,1,0.2 rate=-11 ! translate offset=[[0.4,3,0.2],[0,-1.5,0]]"},
-    {"chain", "torus minor_radius=0.2",
-     "torus minor_radius=0.2 ! rotate axis=1,0,0 angle=1.3,0.7 ! translate "
-     "offset=[[1,0,0],[0.3,0.2,0.9]]"},
-};
-enum { TORI = sizeof two_tori / sizeof *two_tori };
-
-static void add_tori(bench_cases *list, int k)
-{
-    bench_add_pair(list, bench_text("%s", two_tori[k].a), bench_text("%s", two_tori[k].b));
-}
-
 static exit_status build_tori(bench_cases *list, const bench_request *request)
 {
     const double gamma[] = {1e-2, 1e-4, 1e-6, 1e-8};
-    for (int k = 0; k < TORI; ++k)
+    for (int k = 0; k < BENCH_TORI; ++k)
         for (size_t g = 0; g < sizeof gamma / sizeof *gamma; ++g) {
-            bench_begin(list, gamma[g], -1, "%s, gamma %g", two_tori[k].name, gamma[g]);
-            add_tori(list, k);
+            bench_begin(list, gamma[g], -1, "%s, gamma %g", bench_tori_name(k), gamma[g]);
+            bench_add_tori(list, k);
         }
     return bench_built(list, request);
 }
@@ -239,44 +165,12 @@ static const bench_set tori = {
 
 /* --- moving: spheres in flight ---------------------------------------------------------------- */
 
-/* First t with |c + v t| = reach; |c| > reach, and the flight passes nearer. */
-static double flight_time(const double c[3], const double v[3], double reach)
-{
-    const double vv = v[0] * v[0] + v[1] * v[1] + v[2] * v[2];
-    const double cv = c[0] * v[0] + c[1] * v[1] + c[2] * v[2];
-    const double cc = c[0] * c[0] + c[1] * c[1] + c[2] * c[2];
-    return (-cv - sqrt(cv * cv - vv * (cc - reach * reach))) / vv;
-}
-
-/* Radii 1 and 0.5, in a random direction and not quite head-on. */
-static void add_flight(bench_cases *list, uint64_t *state)
-{
-    double n[3], aside[3], v[3];
-    bench_direction(state, n);
-    bench_direction(state, aside);
-    for (int i = 0; i < 3; ++i) v[i] = -4 * n[i] + 0.5 * aside[i];
-    bench_scene *scene = bench_add_pair(list, bench_text("sphere"),
-                                        bench_text("sphere radius=0.5 center=%s ! translate "
-                                                   "velocity=%s",
-                                                   vector(n, 3).text, vector(v, 1).text));
-    if (scene == NULL) return;
-    const double c[3] = {3 * n[0], 3 * n[1], 3 * n[2]};
-    scene->has_reference = scene->meets = true;
-    scene->t = flight_time(c, v, 1.5);
-}
-
-static void add_flights(bench_cases *list)
-{
-    uint64_t state = 2024;
-    for (int k = 0; k < DIRECTIONS; ++k) add_flight(list, &state);
-}
-
 static exit_status build_moving(bench_cases *list, const bench_request *request)
 {
     const double gamma[] = {1e-2, 1e-4, 1e-6, 1e-8, 1e-10};
     for (size_t k = 0; k < sizeof gamma / sizeof *gamma; ++k) {
         bench_begin(list, gamma[k], -1, "gamma %g", gamma[k]);
-        add_flights(list);
+        bench_add_flights(list);
     }
     return bench_built(list, request);
 }
@@ -293,12 +187,12 @@ static exit_status build_rates(bench_cases *list, const bench_request *request)
     const double gamma[2] = {0.1, 0.01};
     for (int k = 0; k < 2; ++k) {
         bench_begin(list, gamma[k], -1, "spheres, gamma %g", gamma[k]);
-        add_flights(list);
+        bench_add_flights(list);
         bench_begin(list, gamma[k], -1, "tori, gamma %g", gamma[k]);
-        for (int scene = 0; scene < TORI; ++scene) add_tori(list, scene);
+        for (int scene = 0; scene < BENCH_TORI; ++scene) bench_add_tori(list, scene);
         bench_begin(list, gamma[k], -1, "spikes, gamma %g", gamma[k]);
-        add_head_on(list, widths[0]);
-        add_swing(list, widths[0]);
+        bench_add_head_on(list, widths[0]);
+        bench_add_swing(list, widths[0]);
         bench_begin(list, gamma[k], -1, "patches, gamma %g", gamma[k]);
         bench_add_patches(list, 1, 10);
     }
@@ -316,28 +210,6 @@ static const bench_set rates = {"rates",
 static const bench_method *const distances[] = {&clearance_method, &decision_method, &proof_method,
                                                 NULL};
 
-/* A fixture and an arm of three links, each turning about the end of the one before. */
-static void add_arm(bench_cases *list, uint64_t *state)
-{
-    double rate[3], place[3];
-    for (int k = 0; k < 3; ++k) rate[k] = random_between(state, -1.5, 1.5);
-    bench_direction(state, place);
-    char *arm = bench_text(
-        "{\"bodies\": [{\"name\": \"fixture\", \"surfaces\": [{\"type\": \"sphere\", \"radius\": "
-        "0.3, \"center\": [%.17g,%.17g,%.17g]}]}, {\"name\": \"1\", \"surfaces\": [{\"type\": "
-        "\"ellipsoid\", \"center\": [0.5,0,0], \"radii\": [0.5,0.1,0.1]}], \"maps\": [{\"type\": "
-        "\"rotate\", \"axis\": [0,0,1], \"rate\": %.17g}]}, {\"name\": \"2\", \"parent\": \"1\", "
-        "\"surfaces\": [{\"type\": \"ellipsoid\", \"center\": [1.5,0,0], \"radii\": "
-        "[0.5,0.1,0.1]}], \"maps\": [{\"type\": \"rotate\", \"center\": [1,0,0], \"axis\": "
-        "[0,1,0], "
-        "\"rate\": %.17g}]}, {\"name\": \"3\", \"parent\": \"2\", \"surfaces\": [{\"type\": "
-        "\"ellipsoid\", \"center\": [2.5,0,0], \"radii\": [0.5,0.1,0.1]}], \"maps\": [{\"type\": "
-        "\"rotate\", \"center\": [2,0,0], \"axis\": [0,1,0], \"rate\": %.17g}]}], \"ignore\": "
-        "[[\"1\",\"2\"], [\"2\",\"3\"], [\"1\",\"3\"]]}",
-        3.6 * place[0], 3.6 * place[1], 3.6 * place[2], rate[0], rate[1], rate[2]);
-    bench_add_text(list, arm);
-}
-
 static void cut_last(bench_cases *list, double cut)
 {
     if (!list->no_memory) list->cases[list->count - 1].cut = cut;
@@ -353,11 +225,11 @@ static exit_status build_clearance(bench_cases *list, const bench_request *reque
         cut_last(list, cuts[k]);
     }
     bench_begin(list, 1e-6, -1, "tori, to 0.9 of contact");
-    for (int k = 0; k < TORI; ++k) add_tori(list, k);
+    for (int k = 0; k < BENCH_TORI; ++k) bench_add_tori(list, k);
     cut_last(list, 0.9);
     uint64_t state = 2026;
     bench_begin(list, 1e-6, -1, "arms, to 0.9 of contact");
-    for (int k = 0; k < 12; ++k) add_arm(list, &state);
+    for (int k = 0; k < 12; ++k) bench_add_arm(list, &state);
     cut_last(list, 0.9);
     return status == EXIT_ANSWERED ? bench_built(list, request) : status;
 }
