@@ -288,7 +288,8 @@ IMP_EXPORT imp_code imp_builder_gamma(imp_builder *builder, double gamma, double
 
 /* Adds a parameter of the scene: a quantity beside time, from lo to hi, both finite. Surfaces and
  * maps that are added afterwards with imp_argument_text("clock", name) among their arguments follow
- * it: their t is its value. Scenes with parameters are asked by imp_survey_new. */
+ * it: their t is its value. With an array of two numbers, lo and hi, in place of the name they have
+ * a parameter of their own. Scenes with parameters are asked by imp_survey_new. */
 IMP_EXPORT imp_code imp_builder_parameter(imp_builder *builder, const char *name, double lo,
                                           double hi, imp_error *error);
 

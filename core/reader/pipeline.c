@@ -8,6 +8,7 @@
 #include "core/reader/pipeline.h"
 #include "core/reader/pipeline_value.h"
 
+#include <math.h>
 #include <stdlib.h>
 #include <string.h>
 
@@ -100,12 +101,25 @@ static const imp_parameter *find_row(const reader *r, const char *type, bool map
     return index < 0 ? NULL : parameter_table_row(&table, (size_t)index);
 }
 
+/* A clock is the name of a parameter, or a range: numbers with a comma between. */
+static const imp_parameter *clock_row(word value)
+{
+    static const imp_parameter name = {.name = "clock", .kind = IMP_KIND_STRING};
+    static const imp_parameter range = {.name = "clock",
+                                        .kind = IMP_KIND_NUMBER,
+                                        .rank = 1,
+                                        .extent = {2},
+                                        .min = -INFINITY,
+                                        .max = INFINITY};
+    const bool begins = value.length > 0 && strchr("-+.0123456789[", value.at[0]) != NULL;
+    return begins && memchr(value.at, ',', value.length) != NULL ? &range : &name;
+}
+
 static imp_code put_value(reader *r, json_t *stage, bool map, const char *name, word value)
 {
     const char *type = json_string_value(json_object_get(stage, "type"));
-    static const imp_parameter clock = {.name = "clock", .kind = IMP_KIND_STRING};
-    const bool is_clock = strcmp(name, clock.name) == 0;
-    const imp_parameter *row = is_clock ? &clock : find_row(r, type, map, name);
+    const bool is_clock = strcmp(name, "clock") == 0;
+    const imp_parameter *row = is_clock ? clock_row(value) : find_row(r, type, map, name);
     json_t *json;
     char why[200] = "";
     imp_code code = pipeline_value_read(row, value.at, value.length, &json, why, sizeof why);

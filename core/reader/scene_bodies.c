@@ -4,7 +4,6 @@
 
 #include "core/reader/scene_bodies.h"
 
-#include <math.h>
 #include <stdio.h>
 #include <string.h>
 
@@ -123,8 +122,7 @@ static imp_code find(const scene_bodies *b, const char *name, bool groups, const
 imp_code scene_bodies_parameter(scene_bodies *b, const char *name, double lo, double hi,
                                 const place *at)
 {
-    scene_parameters *known = scene_parameters_of(b->assembly.scene);
-    imp_code code = check_line(b, name, at);
+    const imp_code code = check_line(b, name, at);
     if (code != IMP_SUCCESS) return code;
     if (strcmp(name, "time") == 0 || strchr(name, '=') != NULL)
         return place_error(
@@ -132,18 +130,7 @@ imp_code scene_bodies_parameter(scene_bodies *b, const char *name, double lo, do
             "got the name \"%.80s\", must be a name other than \"time\", which every "
             "scene has, and without '='",
             name);
-    if (!(isfinite(lo) && isfinite(hi) && lo <= hi))
-        return place_error(at, b->error, IMP_ERROR_SCENE,
-                           "got the range [%s, %s], must be finite, [lo, hi] with lo <= hi",
-                           text_of_number(lo).at, text_of_number(hi).at);
-    if (scene_parameters_find(known, name) < known->count)
-        return place_error(at, b->error, IMP_ERROR_SCENE, "'%.80s' is given twice", name);
-    if (known->count == SCENE_PARAMETERS_MAX)
-        return place_error(at, b->error, IMP_ERROR_SCENE,
-                           "found more than %d parameters; that is more than a search over all "
-                           "values can handle",
-                           (int)SCENE_PARAMETERS_MAX);
-    return keep(b, scene_parameters_add(known, name, lo, hi));
+    return scene_instances_parameter(&b->instances, name, lo, hi, at);
 }
 
 /* --- Groups ----------------------------------------------------------------------------------- */

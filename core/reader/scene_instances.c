@@ -4,6 +4,8 @@
 
 #include "core/reader/scene_instances.h"
 
+#include <math.h>
+#include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 
@@ -153,40 +155,86 @@ imp_code scene_instances_finish(scene_instances *p)
     return code;
 }
 
+/* --- Parameters ------------------------------------------------------------------------------- */
+
+imp_code scene_instances_parameter(scene_instances *p, const char *name, double lo, double hi,
+                                   const place *at)
+{
+    if (!(isfinite(lo) && isfinite(hi) && lo <= hi))
+        return place_error(at, p->error, IMP_ERROR_SCENE,
+                           "got the range [%s, %s], must be finite, [lo, hi] with lo <= hi",
+                           text_of_number(lo).at, text_of_number(hi).at);
+    if (scene_parameters_find(p->parameters, name) < p->parameters->count)
+        return place_error(at, p->error, IMP_ERROR_SCENE, "'%.80s' is given twice", name);
+    if (p->parameters->count == SCENE_PARAMETERS_MAX)
+        return place_error(at, p->error, IMP_ERROR_SCENE,
+                           "found more than %d parameters; that is more than a search over all "
+                           "values can handle",
+                           (int)SCENE_PARAMETERS_MAX);
+    return scene_parameters_add(p->parameters, name, lo, hi) ? IMP_SUCCESS
+                                                             : error_set_memory(p->error);
+}
+
+/* Adds the parameter of "clock": [lo, hi], which is the instance's own. Its name is TYPE#N, with
+ * the first N that makes it new. *k: its index. */
+static imp_code add_own_parameter(scene_instances *p, const json_t *object, const json_t *clock,
+                                  const place *at, size_t *k)
+{
+    const json_t *lo = json_array_get(clock, 0), *hi = json_array_get(clock, 1);
+    char name[100];
+    if (json_array_size(clock) != 2 || !json_is_number(lo) || !json_is_number(hi))
+        return place_error(at, p->error, IMP_ERROR_SCENE,
+                           "got %s, must be the name of one of the scene's \"parameters\", or the "
+                           "range [lo, hi] of a parameter of its own",
+                           json_describe(clock).at);
+    *k = p->parameters->count;
+    for (size_t n = 1;; ++n) {
+        snprintf(name, sizeof name, "%.70s#%zu", json_string_value(json_object_get(object, "type")),
+                 n);
+        if (scene_parameters_find(p->parameters, name) == *k) break;
+    }
+    return scene_instances_parameter(p, name, json_number_value(lo), json_number_value(hi), at);
+}
+
 /* --- Instances -------------------------------------------------------------------------------- */
 
-static imp_code refuse_clock(const scene_instances *p, const json_t *clock, const place *at)
+static imp_code refuse_clock(const scene_instances *p, const char *name, const place *at)
 {
-    const place member = at->argument ? place_argument(at, "clock") : place_key(at, "clock");
-    const char *name = json_string_value(clock);
     spelling_search search = {.wanted = name};
-    if (name == NULL)
-        return place_error(&member, p->error, IMP_ERROR_SCENE,
-                           "got %s, must be the name of one of the scene's \"parameters\"",
-                           json_describe(clock).at);
     for (size_t k = 0; k < p->parameters->count; ++k)
         spelling_offer(&search, p->parameters->at[k].name);
     if (search.best != NULL)
-        return place_error(&member, p->error, IMP_ERROR_SCENE,
+        return place_error(at, p->error, IMP_ERROR_SCENE,
                            "got \"%.80s\", which is not in \"parameters\"; did you mean '%s'?",
                            name, search.best);
-    return place_error(
-        &member, p->error, IMP_ERROR_SCENE,
-        "got \"%.80s\", which is not a parameter; must be \"time\" or a name from the "
-        "scene's \"parameters\": {\"%.80s\": [lo, hi]}",
-        name, name);
+    return place_error(at, p->error, IMP_ERROR_SCENE,
+                       "got \"%.80s\", which is not a parameter; must be \"time\", a name from "
+                       "the scene's \"parameters\": {\"%.80s\": [lo, hi]}, or the range [lo, hi] "
+                       "of a parameter of its own",
+                       name, name);
+}
+
+/* Finds the parameter that a clock other than time names, or adds its own. *k: its index. */
+static imp_code find_clock(scene_instances *p, const json_t *object, const json_t *clock,
+                           const place *at, size_t *k)
+{
+    const place member = at->argument ? place_argument(at, "clock") : place_key(at, "clock");
+    const char *name = json_string_value(clock);
+    if (name == NULL) return add_own_parameter(p, object, clock, &member, k);
+    *k = scene_parameters_find(p->parameters, name);
+    return *k < p->parameters->count ? IMP_SUCCESS : refuse_clock(p, name, &member);
 }
 
 /* Puts what follows a clock, and is held at the middle of its range, in the place of an
  * instance. */
-static imp_code follow(const scene_instances *p, const json_t *clock, const place *at,
-                       shared_instance **made)
+static imp_code follow(scene_instances *p, const json_t *object, const json_t *clock,
+                       const place *at, shared_instance **made)
 {
     const char *name = json_string_value(clock);
+    size_t k = 0;
     if (name != NULL && strcmp(name, "time") == 0) return IMP_SUCCESS;
-    const size_t k =
-        name != NULL ? scene_parameters_find(p->parameters, name) : p->parameters->count;
-    if (k == p->parameters->count) return refuse_clock(p, clock, at);
+    const imp_code code = find_clock(p, object, clock, at, &k);
+    if (code != IMP_SUCCESS) return code;
     scene_parameter *of = &p->parameters->at[k];
     shared_instance *inner = *made;
     if (!(inner->lo[2] <= of->lo && of->hi <= inner->hi[2]))
@@ -203,18 +251,20 @@ static imp_code follow(const scene_instances *p, const json_t *clock, const plac
 imp_code scene_instances_make(scene_instances *p, imp_type_kind kind, json_t *object,
                               const place *at, shared_instance **made)
 {
-    shared_instance *known = instance_table_find(&p->made, kind, object);
-    if (known != NULL) return *made = instance_hold(known), IMP_SUCCESS;
     const json_t *clock = json_object_get(object, "clock");
+    const bool is_own = json_is_array(clock); /* equal objects have parameters that differ */
+    shared_instance *known = is_own ? NULL : instance_table_find(&p->made, kind, object);
+    if (known != NULL) return *made = instance_hold(known), IMP_SUCCESS;
     imp_code code = scene_build_shared(&p->source, kind, object, at, made, p->error);
     if (code == IMP_SUCCESS && clock != NULL) {
-        code = follow(p, clock, at, made);
+        code = follow(p, object, clock, at, made);
         if (code != IMP_SUCCESS) {
             instance_release(*made);
             *made = NULL;
         }
     }
-    if (code != IMP_SUCCESS || instance_table_add(&p->made, kind, object, *made)) return code;
+    if (code != IMP_SUCCESS || is_own || instance_table_add(&p->made, kind, object, *made))
+        return code;
     instance_release(*made);
     *made = NULL;
     return error_set_memory(p->error);

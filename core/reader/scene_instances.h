@@ -52,8 +52,12 @@ typedef struct scene_instances {
 imp_code scene_instances_begin(scene_instances *p, const json_t *root, const place *at);
 void scene_instances_clear(scene_instances *p);
 
-/* Gets the instance that the object describes: an equal one that was made before, or a new one. The
- * caller releases it. */
+/* Adds a parameter to the scene, by a name that it may have. */
+imp_code scene_instances_parameter(scene_instances *p, const char *name, double lo, double hi,
+                                   const place *at);
+
+/* Gets the instance that the object describes: an equal one that was made before, or a new one; one
+ * that has a clock of its own is always new. The caller releases it. */
 imp_code scene_instances_make(scene_instances *p, imp_type_kind kind, json_t *object,
                               const place *at, shared_instance **made);
 

@@ -139,6 +139,77 @@ START_TEST(the_earliest_contact_is_that_of_the_worst_values)
 }
 END_TEST
 
+/* --- Parameters that nobody names ------------------------------------------------------------- */
+
+START_TEST(equal_maps_of_two_bodies_have_two_parameters_of_their_own)
+{
+    imp_scene *scene =
+        scene_of("{'parameters':{'translate#2':[0,1]},'bodies':["
+                 "{'surfaces':[{'type':'sphere','radius':0.3}],"
+                 "'maps':[{'type':'translate','velocity':[1,0,0],'clock':[-0.1,0.1]}]},"
+                 "{'surfaces':[{'type':'sphere','radius':0.3,'center':[0.9,0,0]}],"
+                 "'maps':[{'type':'translate','velocity':[1,0,0],'clock':[-0.1,0.1]}]}]}");
+    imp_scene_parameter_info info;
+    imp_clearance_options asked = imp_clearance_options_default();
+    ck_assert_uint_eq(imp_scene_parameter_count(scene), 3);
+    ck_assert(imp_scene_parameter(scene, 1, &info));
+    ck_assert_str_eq(info.name, "translate#1");
+    ck_assert_double_eq(info.hi, 0.1);
+    ck_assert(imp_scene_parameter(scene, 2, &info));
+    ck_assert_str_eq(info.name, "translate#3"); /* another has the name translate#2 */
+    const answer found = survey(scene, 1e-3, &asked, NULL);
+    ck_assert_double_le(found.near.lower, 0.1); /* 0.9 - 0.6 - 0.1 - 0.1 */
+    ck_assert_double_ge(found.near.lower, 0.1 - 1e-3);
+    imp_scene_free(scene);
+}
+END_TEST
+
+#define OFF(ANGLE, OFFSET)                                                                         \
+    "{'type':'rotate','axis':[1,0,0],'rate':1,'clock':" ANGLE "},"                                 \
+    "{'type':'rotate','axis':[0,1,0],'rate':1,'clock':" ANGLE "},"                                 \
+    "{'type':'rotate','axis':[0,0,1],'rate':1,'clock':" ANGLE "},"                                 \
+    "{'type':'translate','velocity':[1,0,0],'clock':" OFFSET "},"                                  \
+    "{'type':'translate','velocity':[0,1,0],'clock':" OFFSET "},"                                  \
+    "{'type':'translate','velocity':[0,0,1],'clock':" OFFSET "}"
+
+/* A ball at height 2 above the centre: a rotation by an angle of at most A and an offset of length
+ * at most d bring its centre to x = 2 sin A + d at most. The maps bring it to
+ * 2 (cos a sin b cos c + sin a sin c) + d, no farther than 2 (sin A + sin A sin A) + d. */
+START_TEST(six_maps_hold_all_displacements_of_a_tolerance)
+{
+    imp_scene *scene = scene_of(
+        "{'bodies':[{'surfaces':[{'type':'sphere','radius':0.25,'center':[0,0,2]}],"
+        "'maps':[" OFF(
+            "[-0.1,0.1]",
+            "[-0.05,0.05]") "]},"
+                            "{'surfaces':[{'type':'plane','origin':[1,-4,-4],'edge_u':[0,8,0],"
+                            "'edge_v':[0,0,8]}]}]}");
+    imp_clearance_options asked = imp_clearance_options_default();
+    asked.decide = true;
+    asked.required = 1 - 0.25 - 0.05 - 2 * (sin(0.1) + sin(0.1) * sin(0.1)) - 0.05;
+    ck_assert_int_eq(survey(scene, 1e-3, &asked, NULL).near.verdict, IMP_REQUIREMENT_HOLDS);
+    asked.required = 1 - 0.25 - 0.05 - 2 * sin(0.1) + 1e-9;
+    ck_assert_int_eq(survey(scene, 1e-3, &asked, NULL).near.verdict, IMP_REQUIREMENT_VIOLATED);
+    imp_scene_free(scene);
+}
+END_TEST
+
+START_TEST(a_clock_that_is_no_range_is_refused)
+{
+    static const char *const wrong[] = {"[1]", "[1,0]", "[0,'a']", "3", "[0,1,2]"};
+    for (size_t k = 0; k < sizeof wrong / sizeof *wrong; ++k) {
+        char text[300];
+        imp_error error;
+        snprintf(text, sizeof text,
+                 "{'bodies':[{'surfaces':[{'type':'sphere'}],'maps':[{'type':'translate',"
+                 "'velocity':[1,0,0],'clock':%s}]}]}",
+                 wrong[k]);
+        ck_assert_ptr_null(try_scene(text, &error));
+        ck_assert_msg(strstr(error.text, "/bodies/0/maps/0/clock: got ") != NULL, "%s", error.text);
+    }
+}
+END_TEST
+
 /* --- Going on --------------------------------------------------------------------------------- */
 
 /* Asks in steps of a few boxes, each by a survey that goes on from the text of the one before. */
@@ -988,6 +1059,9 @@ int main(void)
     tcase_add_test(tcase, what_is_required_is_decided_for_all_values);
     tcase_add_test(tcase, the_earliest_contact_is_that_of_the_worst_values);
     tcase_add_test(tcase, a_text_that_no_survey_saved_is_refused);
+    tcase_add_test(tcase, a_clock_that_is_no_range_is_refused);
+    tcase_add_test(tcase, six_maps_hold_all_displacements_of_a_tolerance);
+    tcase_add_test(tcase, equal_maps_of_two_bodies_have_two_parameters_of_their_own);
     tcase_add_test(tcase, a_survey_goes_on_from_a_saved_one_to_the_same_bits);
     tcase_add_test(tcase, a_common_parent_takes_no_part);
     tcase_add_test(tcase, what_rests_for_a_while_keeps_time);
