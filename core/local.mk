@@ -119,6 +119,7 @@ core_scene = \
 core_solid = \
     core/solid/closure.c \
     core/solid/components.c core/solid/components.h \
+    core/solid/cell_hash.h \
     core/solid/edges.c core/solid/edges.h \
     core/solid/inside.c core/solid/inside.h \
     core/solid/nesting.c \

@@ -9,6 +9,7 @@
 #include <string.h>
 
 #include "core/base/status.h"
+#include "core/solid/cell_hash.h"
 
 /* --- Points ----------------------------------------------------------------------------------- */
 
@@ -45,22 +46,10 @@ typedef struct cells {
     size_t slots;  /* a power of 2, more than there are corners */
 } cells;
 
-static size_t hash_of(const double key[3])
-{
-    uint64_t hash = 0;
-    for (int i = 0; i < 3; ++i) {
-        uint64_t bits;
-        memcpy(&bits, &key[i], sizeof bits);
-        hash = (hash ^ bits) * 0x9E3779B97F4A7C15u;
-        hash ^= hash >> 29;
-    }
-    return (size_t)hash;
-}
-
 /* Joins a patch to the one that was first in its corner's cell. */
 static void enter(cells *c, size_t *up, size_t index, const double key[3])
 {
-    size_t slot = hash_of(key) & (c->slots - 1);
+    size_t slot = cell_hash(key) & (c->slots - 1);
     while (c->patch[slot] != SIZE_MAX && memcmp(c->key[slot], key, sizeof c->key[slot]) != 0)
         slot = (slot + 1) & (c->slots - 1);
     if (c->patch[slot] == SIZE_MAX) {

@@ -7,6 +7,7 @@
 #include <stdlib.h>
 
 #include "core/base/status.h"
+#include "core/solid/cell_hash.h"
 
 /* --- Reading ---------------------------------------------------------------------------------- */
 
@@ -174,19 +175,14 @@ typedef struct cells {
 
 /* Returns a point's cell. Cells are counted from the first point of all edges, so that their
  * numbers stay small wherever the body is. */
-static int64_t cell_number(const edges *e, vec3 x, int i, double shift)
+static double cell_number(const edges *e, vec3 x, int i, double shift)
 {
-    return (int64_t)floor((x.x[i] - e->at[0].x[i] + shift) / (4 * e->slack));
+    return floor((x.x[i] - e->at[0].x[i] + shift) / (4 * e->slack)) + 0.0; /* 0, not -0 */
 }
 
-static size_t bucket_of(const cells *c, const int64_t at[3])
+static size_t bucket_of(const cells *c, const double at[3])
 {
-    uint64_t hash = 0;
-    for (int i = 0; i < 3; ++i) {
-        hash = (hash ^ (uint64_t)at[i]) * 0x9E3779B97F4A7C15u;
-        hash ^= hash >> 29;
-    }
-    return (size_t)(hash & (c->buckets - 1));
+    return cell_hash(at) & (c->buckets - 1);
 }
 
 static vec3 middle_of(const edges *e, size_t i) { return edge_points(e, i)[e->steps / 2]; }
@@ -201,7 +197,7 @@ static bool cells_fill(cells *c, const edges *e)
     for (size_t k = 0; k < c->buckets; ++k) c->first[k] = SIZE_MAX;
     for (size_t i = 0; i < e->count; ++i) {
         if (edge_is_point(e, i)) continue;
-        int64_t at[3];
+        double at[3];
         for (int k = 0; k < 3; ++k) at[k] = cell_number(e, middle_of(e, i), k, 0);
         const size_t bucket = bucket_of(c, at);
         c->next[i] = c->first[bucket];
@@ -231,7 +227,7 @@ static size_t match_edge(const cells *c, size_t i)
     int count = 0;
     partners found = {0, SEAM_NONE};
     for (int corner = 0; corner < 8; ++corner) {
-        int64_t at[3];
+        double at[3];
         for (int k = 0; k < 3; ++k) {
             const double shift = corner >> k & 1 ? c->edges->slack : -c->edges->slack;
             at[k] = cell_number(c->edges, middle, k, shift);
