@@ -173,6 +173,26 @@ in_parts() {
     arms >arms.json
     run -0 --separate-stderr "$IMPINGE" solve arms.json --parameter c=0,1
     [[ $stderr == *"warning: no surface or map has the parameter 'c' as its clock"* ]]
+    for verb in solve clearance; do
+        run -0 --separate-stderr "$IMPINGE" $verb arms.json --parameter c=0,1 --json
+        json '.warnings | length == 1 and .[0].parameter == "c"'
+    done
+    valid clearance
+}
+
+@test "batch answers a line with parameters for all values" {
+    arms 2.55 | jq -c '.id = "near" | .parameters.c = [0, 1]' >lines.jsonl
+    arms | jq -c '.id = "far"' >>lines.jsonl
+    arms | jq -c '.id = "fine"' >>lines.jsonl
+    run -0 --separate-stderr "$IMPINGE" batch lines.jsonl --threads 2
+    [ "$(jq -cs 'map([.id, .verdict])' <<<"$output")" = \
+        '[["near","contact"],["far","clear"],["fine","clear"]]' ]
+    jq -es '(.[0] | .parameters.a != null and .warnings[0].parameter == "c") and
+        (.[1] | .parameters == null and .boxes > 0)' <<<"$output"
+    run -3 --separate-stderr "$IMPINGE" batch lines.jsonl --max-pairs 1
+    jq -es '.[0].verdict == "undecided" and .[0].proved < 1 and .[0].worst != null' <<<"$output"
+    run -2 --separate-stderr "$IMPINGE" batch lines.jsonl --method paper
+    jq -es 'all(.error | contains("--method paper does not go with the parameters"))' <<<"$output"
 }
 
 @test "simulate refuses clocks" {

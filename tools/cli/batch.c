@@ -12,6 +12,7 @@
 #include "tools/cli/progress.h"
 #include "tools/cli/query.h"
 #include "tools/cli/result.h"
+#include "tools/cli/survey.h"
 #include "tools/cli/verbs.h"
 
 void batch_keep_worst(batch *b, exit_status status)
@@ -42,9 +43,25 @@ static json_t *error_json(batch_item *item, const imp_error *error)
                      (json_int_t)item->line);
 }
 
+/* Solves a scene without parameters. The answer is NULL without memory for it. */
+static imp_code solve_pose(imp_scene *scene, const arguments *args, imp_result *result,
+                           json_t **answer, imp_error *error)
+{
+    char *advice = NULL;
+    const imp_code code = query_solve(scene, args, result, &advice, error);
+    *answer = code == IMP_SUCCESS ? result_json(scene, result) : NULL;
+    if (*answer != NULL &&
+        !(result_set_advice(*answer, advice) && result_set_warnings(*answer, scene))) {
+        json_decref(*answer);
+        *answer = NULL;
+    }
+    free(advice);
+    return code;
+}
+
 static json_t *solve_line(const batch *b, batch_item *item)
 {
-    char *name = NULL, *advice = NULL;
+    char *name = NULL;
     imp_error error = {.code = IMP_ERROR_MEMORY};
     imp_result result;
     json_t *answer = NULL;
@@ -53,19 +70,14 @@ static json_t *solve_line(const batch *b, batch_item *item)
         scene = imp_scene_from_json(b->registry, item->text.text, item->text.length, name, &error);
         free(name);
     }
-    if (scene == NULL || query_solve(scene, b->args, &result, &advice, &error) != IMP_SUCCESS) {
+    const bool is_range = imp_scene_parameter_count(scene) > 0;
+    if (scene == NULL || (is_range ? survey_solve : solve_pose)(scene, b->args, &result, &answer,
+                                                                &error) != IMP_SUCCESS) {
         answer = error_json(item, &error);
     } else {
         item->status = query_status(&result, b->args);
         item->interrupted = result.reason == IMP_REASON_CANCELLED;
-        answer = result_json(scene, &result);
-        if (answer != NULL &&
-            !(result_set_advice(answer, advice) && result_set_warnings(answer, scene))) {
-            json_decref(answer);
-            answer = NULL;
-        }
     }
-    free(advice);
     imp_scene_free(scene);
     return answer;
 }

@@ -18,7 +18,8 @@ json_t *result_json(const imp_scene *scene, const imp_result *result);
 /* Adds "advice" unless it is NULL. False: no memory. */
 bool result_set_advice(json_t *object, const char *advice);
 
-/* Adds "warnings", the remarks of types (imp_scene_remark), if there are any. False: no memory. */
+/* Adds "warnings", if there are any: the remarks of types (imp_scene_remark), and parameters that
+ * nothing follows. False: no memory. */
 bool result_set_warnings(json_t *object, const imp_scene *scene);
 
 /* Returns "clear", "contact" or "undecided". */

@@ -96,17 +96,31 @@ bool result_set_advice(json_t *object, const char *advice)
     return advice == NULL || json_object_set_new(object, "advice", output_json_text(advice)) == 0;
 }
 
+/* Adds a warning of each parameter that nothing follows. False: no memory. */
+static bool add_idle_parameters(json_t *list, const imp_scene *scene)
+{
+    imp_scene_parameter_info info;
+    bool kept = true;
+    for (size_t k = 0; kept && imp_scene_parameter(scene, k, &info); ++k)
+        if (!info.is_followed)
+            kept = json_array_append_new(
+                       list, json_pack("{s:o, s:s}", "parameter", output_json_text(info.name),
+                                       "text", "no surface or map has it as its clock")) == 0;
+    return kept;
+}
+
 bool result_set_warnings(json_t *object, const imp_scene *scene)
 {
     imp_remark r = {.struct_size = (uint32_t)sizeof r};
-    if (!imp_scene_remark(scene, 0, &r)) return true;
     json_t *list = json_array();
     bool kept = list != NULL;
     for (size_t k = 0; kept && imp_scene_remark(scene, k, &r); ++k)
         kept = json_array_append_new(list, remark_json(scene, &r)) == 0;
-    if (kept) return json_object_set_new(object, "warnings", list) == 0;
+    kept = kept && add_idle_parameters(list, scene);
+    if (kept && json_array_size(list) > 0)
+        return json_object_set_new(object, "warnings", list) == 0;
     json_decref(list);
-    return false;
+    return kept;
 }
 
 /* If a part is NULL, json_pack with "o" fails and frees the other parts. */

@@ -94,6 +94,15 @@ bool survey_is_needed(const imp_scene *scene, const arguments *args)
     return false;
 }
 
+static const char without_paper[] =
+    "--method paper does not go with the parameters that the scene has";
+
+static imp_code refuse_paper(imp_error *error)
+{
+    snprintf(error->text, sizeof error->text, "%s", without_paper);
+    return IMP_ERROR_USAGE;
+}
+
 exit_status survey_check(const arguments *args)
 {
     static const char *const others[] = {"each",    "refine", "explain", "proof",
@@ -105,8 +114,7 @@ exit_status survey_check(const arguments *args)
                 "--%s does not go with the parameters that the scene has; ask without it",
                 others[k]);
     if (arguments_choice(args, "method", 0) != 0)
-        return complain(EXIT_USAGE, args->verb->name,
-                        "--method paper does not go with the parameters that the scene has");
+        return complain(EXIT_USAGE, args->verb->name, "%s", without_paper);
     return EXIT_ANSWERED;
 }
 
@@ -134,8 +142,7 @@ static json_t *values_json(const imp_scene *scene, const double *values)
 /* What stands beside an answer as JSON. `known`: the values are those of the answer. */
 static int set_state(json_t *object, const survey_run *r, bool known, bool undecided)
 {
-    int failed = json_object_set_new(object, "scene", query_scene_json(r->args));
-    failed |= json_object_set_new(object, "boxes", json_integer((json_int_t)r->state.boxes));
+    int failed = json_object_set_new(object, "boxes", json_integer((json_int_t)r->state.boxes));
     failed |= json_object_set_new(object, "parameters",
                                   known ? values_json(r->scene, r->values) : json_null());
     if (object != NULL) failed |= !result_set_warnings(object, r->scene);
@@ -157,7 +164,8 @@ static int set_state(json_t *object, const survey_run *r, bool known, bool undec
 
 static exit_status print_json(const survey_run *r, json_t *object, bool known, bool undecided)
 {
-    if (object != NULL && set_state(object, r, known, undecided) != 0) {
+    if (object != NULL && (json_object_set_new(object, "scene", query_scene_json(r->args)) != 0 ||
+                           set_state(object, r, known, undecided) != 0)) {
         json_decref(object);
         object = NULL;
     }
@@ -238,6 +246,25 @@ static exit_status tell_clearance(const survey_run *r)
 
 /* --- Running ---------------------------------------------------------------------------------- */
 
+static imp_code find_answer(survey_run *r, const imp_options *options,
+                            const imp_survey_options *how, const imp_clearance_options *asked,
+                            imp_error *error)
+{
+    const size_t count = imp_scene_parameter_count(r->scene);
+    r->values = calloc(3 * count + 1, sizeof *r->values);
+    if (r->values == NULL) return error->code = IMP_ERROR_MEMORY;
+    r->lo = r->values + count, r->hi = r->lo + count;
+    r->survey = imp_survey_new(r->scene, options, asked, how, error);
+    if (r->survey == NULL || imp_survey_step(r->survey, 0, error) != IMP_SUCCESS)
+        return error->code;
+    progress_wipe();
+    r->state = (imp_survey_state){.struct_size = (uint32_t)sizeof r->state};
+    imp_survey_get_state(r->survey, &r->state, NULL);
+    r->has_values = imp_survey_values(r->survey, r->values);
+    imp_survey_worst(r->survey, r->lo, r->hi);
+    return IMP_SUCCESS;
+}
+
 static exit_status run_to_end(survey_run *r, const imp_survey_options *how,
                               const imp_clearance_options *asked)
 {
@@ -245,19 +272,9 @@ static exit_status run_to_end(survey_run *r, const imp_survey_options *how,
     imp_options options = query_options(r->scene, r->args);
     crew threads = {query_threads_asked(r->args)};
     query_lend_threads(&options, &threads);
-    const size_t count = imp_scene_parameter_count(r->scene);
-    r->values = calloc(3 * count + 1, sizeof *r->values);
-    if (r->values == NULL) return complain_of_memory(r->args->verb->name);
-    r->lo = r->values + count, r->hi = r->lo + count;
-    r->survey = imp_survey_new(r->scene, &options, asked, how, &error);
-    if (r->survey == NULL || imp_survey_step(r->survey, 0, &error) != IMP_SUCCESS)
-        return complain_of(&error, r->args->verb->name);
-    progress_wipe();
-    r->state = (imp_survey_state){.struct_size = (uint32_t)sizeof r->state};
-    imp_survey_get_state(r->survey, &r->state, NULL);
-    r->has_values = imp_survey_values(r->survey, r->values);
-    imp_survey_worst(r->survey, r->lo, r->hi);
-    return EXIT_ANSWERED;
+    return find_answer(r, &options, how, asked, &error) == IMP_SUCCESS
+               ? EXIT_ANSWERED
+               : complain_of(&error, r->args->verb->name);
 }
 
 static exit_status run(imp_scene *scene, const imp_clearance_options *asked, const arguments *args)
@@ -275,6 +292,28 @@ static exit_status run(imp_scene *scene, const imp_clearance_options *asked, con
     imp_survey_free(r.survey);
     free(r.values);
     return status;
+}
+
+imp_code survey_solve(imp_scene *scene, const arguments *args, imp_result *result, json_t **answer,
+                      imp_error *error)
+{
+    survey_run r = {.scene = scene, .args = args};
+    const imp_options options = query_options(scene, args);
+    if (arguments_choice(args, "method", 0) != 0) return error->code = refuse_paper(error);
+    const imp_code code = find_answer(&r, &options, NULL, NULL, error);
+    if (code == IMP_SUCCESS) {
+        *result = (imp_result){.struct_size = (uint32_t)sizeof *result};
+        imp_survey_get_result(r.survey, result, NULL);
+        *answer = result_json(scene, result);
+        if (*answer != NULL && set_state(*answer, &r, result->verdict == IMP_VERDICT_CONTACT,
+                                         result->verdict == IMP_VERDICT_UNDECIDED) != 0) {
+            json_decref(*answer);
+            *answer = NULL;
+        }
+    }
+    imp_survey_free(r.survey);
+    free(r.values);
+    return code;
 }
 
 exit_status survey_contact(imp_scene *scene, const arguments *args)

@@ -24,6 +24,12 @@ exit_status survey_contact(imp_scene *scene, const arguments *args);
 exit_status survey_clearance(imp_scene *scene, const imp_clearance_options *asked,
                              const arguments *args);
 
+/* Solves a scene with parameters for all their values, as a line of `batch`. *answer: the result as
+ * JSON with the values and boxes, without the scene's name, which the caller frees; NULL: no
+ * memory. After an error only *error is set. [any thread] */
+imp_code survey_solve(imp_scene *scene, const arguments *args, imp_result *result, json_t **answer,
+                      imp_error *error);
+
 /* Returns the text of a scene, with the parameters of the command line put into it: `text` itself
  * is freed. Texts that are no JSON object stay as they are, so that the reader complains. NULL: it
  * complained. */

@@ -113,7 +113,7 @@ const verb verb_batch = {
         "that cannot be answered gives {\"id\": ..., \"error\": ..., \"line\": ...} and the rest "
         "goes\n"
         "on; the exit status is the greatest any line earned. Blank lines are skipped. Limits\n"
-        "hold for each scene by itself.\n",
+        "hold for each scene by itself. One with parameters is answered for all their values.\n",
     .example = "echo '{\"id\": 1, \"bodies\": [{\"name\": \"a\", \"surfaces\": [{\"type\": "
                "\"sphere\"}]},' \\\n"
                "       '{\"name\": \"b\", \"surfaces\": [{\"type\": \"sphere\", \"center\": "
