@@ -75,6 +75,7 @@ tools_check = \
 tools_bench = \
     tools/bench/bench.h \
     tools/bench/cases.c \
+    tools/bench/certificates.c \
     tools/bench/columns.c tools/bench/columns.h \
     tools/bench/conformal.c \
     tools/bench/parameters.c \

@@ -189,8 +189,26 @@ counts() { jq 'del(.. | .seconds?)' <<<"$output"; }
     run -0 --separate-stderr "$IMPINGE" bench --method paper --max-pairs 1 --repeat 1 --json
     valid bench
     json '[.sets[].set] == ["figure7", "bicubic", "spikes", "tori", "rates", "moving"]'
-    [ "$(grep -c 'is for the default method only, and left out' <<<"$stderr")" -eq 7 ]
+    [ "$(grep -c 'is for the default method only, and left out' <<<"$stderr")" -eq 8 ]
     [[ $stderr == *"set 'bodies'"* ]]
+}
+
+@test "certificates hold, and are counted in bytes and by what it takes to verify them" {
+    [ -x "$top_builddir"/tools/impinge-verify ] || skip "impinge-verify needs MPFI"
+    run -0 "$IMPINGE" bench certificates --up-to 100 --repeat 1 --json
+    valid bench
+    json '[.sets[0].cases[].case] == ["patches, gamma 1e-06", "shaft, c = 0.001", "socket, c = 0.1",
+        "teapot and torus, gamma 0.01"] and .sets[0].findings.refused == 0'
+    json 'all(.sets[0].cases[]; (.methods[0] | has("certificates") | not) and .scenes as $n |
+        .methods[1].certificates | .count == $n and .hold == $n and .bytes.mean > 1000 and
+        .verify_seconds.mean > 0 and .verify_over_solve > 1)'
+}
+
+@test "certificates are not measured where no verifier is" {
+    mkdir bare
+    cp "$top_builddir"/tools/.libs/impinge bare 2>/dev/null || skip 'linked statically'
+    export LD_LIBRARY_PATH=$top_builddir/.libs
+    fails 2 "set 'certificates' needs impinge-verify" env PATH=/nowhere bare/impinge bench certificates
 }
 
 @test "counts are the same in every run" {

@@ -68,11 +68,12 @@ void bench_cases_free(bench_cases *list);
 /* --- Methods and sets ------------------------------------------------------------------------- */
 
 typedef enum bench_question {
-    BENCH_CONTACT,   /* when do they first touch? */
-    BENCH_CLEARANCE, /* how near do they come? */
-    BENCH_DECISION,  /* is 0.99 of the minimum distance kept? */
-    BENCH_PROOF,     /* do they stay 0.99 of the least distance apart? */
-    BENCH_STREAM     /* contact, of all scenes one after the other, reading them included */
+    BENCH_CONTACT,    /* when do they first touch? */
+    BENCH_CLEARANCE,  /* how near do they come? */
+    BENCH_DECISION,   /* is 0.99 of the minimum distance kept? */
+    BENCH_PROOF,      /* do they stay 0.99 of the least distance apart? */
+    BENCH_STREAM,     /* contact, of all scenes one after the other, reading them included */
+    BENCH_CERTIFICATE /* contact, keeping the proof, which is then verified */
 } bench_question;
 
 typedef struct bench_method {
@@ -102,14 +103,21 @@ typedef struct bench_spread {
     double mean, median, max;
 } bench_spread;
 
+/* Certificates of scenes, and what impinge-verify made of them. */
+typedef struct bench_certificates {
+    size_t count, hold;          /* those that hold without assuming anything */
+    bench_spread bytes, seconds; /* size of the file, processor time of the verifier */
+} bench_certificates;
+
 /* How one method did on one case. */
 typedef struct bench_tally {
     size_t scenes, verdicts[3]; /* by imp_verdict */
     size_t ended;               /* undecided because the budget ended */
     bench_spread pairs, nodes, searches, heap, bytes, seconds;
     double processor; /* BENCH_STREAM: seconds a scene of all threads; `seconds` are the clock's */
-    size_t references, agreed; /* scenes with a reference; whose verdict is the same */
-    double earliest, latest;   /* of t_lower - reference, in time: over the contacts among them, and
+    size_t references, agreed;       /* scenes with a reference; whose verdict is the same */
+    bench_certificates certificates; /* BENCH_CERTIFICATE; else count is 0 */
+    double earliest, latest; /* of t_lower - reference, in time: over the contacts among them, and
                                   over all of them that meet; NAN if there is none */
 } bench_tally;
 
@@ -164,12 +172,15 @@ const bench_set *const *bench_sets_all(void);
 const bench_set *bench_set_find(const char *name);
 
 /* Machine parts that slide in each other; everyday scenes; scenes of many bodies; meshes of many
- * triangles; streams of scenes. */
+ * triangles; streams of scenes; proofs that are verified. */
 extern const bench_set bench_conformal, bench_parameters, bench_everyday, bench_bodies,
-    bench_surfaces, bench_batch;
+    bench_surfaces, bench_batch, bench_certificates_set;
 
 /* Whether the request measures any method of the set. */
 bool bench_set_is_measured(const bench_set *set, const bench_request *request);
+
+/* Says what the set needs that is not here, or NULL. */
+const char *bench_set_lack(const bench_set *set);
 
 /* What building a set answers once its cases are added. */
 exit_status bench_built(const bench_cases *list, const bench_request *request);
@@ -193,6 +204,20 @@ imp_code bench_measure(imp_registry *registry, const bench_case *c, const bench_
 /* Measures a method of BENCH_STREAM on one case. Times are the median of `repeats` runs. */
 imp_code bench_measure_stream(imp_registry *registry, const bench_case *c, const bench_method *m,
                               const bench_request *request, bench_tally *tally, imp_error *error);
+
+/* Measures BENCH_CERTIFICATE on one case. The verifier runs once for each scene. */
+imp_code bench_measure_certificates(imp_registry *registry, const bench_case *c,
+                                    const bench_request *request, bench_tally *tally,
+                                    imp_error *error);
+
+/* The verifier's time over that of the search that kept the proof, in the mean. */
+double bench_verify_over_solve(const bench_tally *tally);
+
+/* Makes a scene of a case; NULL: *error says why. The caller frees it. */
+imp_scene *bench_scene_of(imp_registry *registry, const bench_scene *s, imp_error *error);
+
+/* Processor seconds of this thread: other processes of a busy machine do not count. */
+double bench_seconds_computed(void);
 
 /* What the numbers mean; what a set is about and the head of its table; one case of it. */
 void bench_print_request(const bench_request *request);

@@ -18,7 +18,7 @@ double columns_median(double *x, size_t count)
     return 0.5 * (x[(count - 1) / 2] + x[count / 2]);
 }
 
-static bench_spread spread(double *x, size_t count)
+bench_spread columns_spread(double *x, size_t count)
 {
     bench_spread s = {0, count > 0 ? columns_median(x, count) : 0, count > 0 ? x[count - 1] : 0};
     for (size_t k = 0; k < count; ++k) s.mean += x[k] / (double)count;
@@ -52,10 +52,10 @@ void columns_add(columns *x, const imp_stats *stats, double seconds)
 
 void columns_tally(columns *x, bench_tally *tally)
 {
-    tally->pairs = spread(x->of[PAIRS], x->count);
-    tally->nodes = spread(x->of[NODES], x->count);
-    tally->searches = spread(x->of[SEARCHES], x->count);
-    tally->heap = spread(x->of[HEAP], x->count);
-    tally->bytes = spread(x->of[BYTES], x->count);
-    tally->seconds = spread(x->of[SECONDS], x->count);
+    tally->pairs = columns_spread(x->of[PAIRS], x->count);
+    tally->nodes = columns_spread(x->of[NODES], x->count);
+    tally->searches = columns_spread(x->of[SEARCHES], x->count);
+    tally->heap = columns_spread(x->of[HEAP], x->count);
+    tally->bytes = columns_spread(x->of[BYTES], x->count);
+    tally->seconds = columns_spread(x->of[SECONDS], x->count);
 }

@@ -23,6 +23,9 @@ void columns_add(columns *x, const imp_stats *stats, double seconds);
 /* Fills the spreads of a tally. Sorts the columns. */
 void columns_tally(columns *x, bench_tally *tally);
 
+/* Mean, median and greatest of x, which is sorted; all 0 if count is 0. */
+bench_spread columns_spread(double *x, size_t count);
+
 /* Sorts x; count > 0. */
 double columns_median(double *x, size_t count);
 

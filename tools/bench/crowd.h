@@ -11,4 +11,8 @@
  * machine. NULL: no memory. The caller frees it. */
 char *crowd_text(size_t count, uint64_t seed);
 
+/* A scene file's text: two meshes, tori of 2 * rows * columns triangles each, that turn, and drift
+ * into each other. NULL: no memory. The caller frees it. */
+char *crowd_two_meshes(size_t rows, size_t columns);
+
 #endif

@@ -63,8 +63,7 @@ static void write_torus(FILE *out, size_t rows, size_t columns)
     fputs("]}", out);
 }
 
-/* Two of them turn, and drift into each other. NULL: no memory. */
-static char *two_meshes(size_t rows, size_t columns)
+char *crowd_two_meshes(size_t rows, size_t columns)
 {
     char *text = NULL;
     size_t length;
@@ -90,7 +89,7 @@ static exit_status build_surfaces(bench_cases *list, const bench_request *reques
         const size_t triangles = 2 * sizes[k][0] * sizes[k][1];
         if (triangles > request->up_to) break;
         bench_begin(list, 1e-6, -1, "%zu triangles each", triangles);
-        bench_add_text(list, two_meshes(sizes[k][0], sizes[k][1]));
+        bench_add_text(list, crowd_two_meshes(sizes[k][0], sizes[k][1]));
     }
     return bench_built(list, request);
 }

@@ -47,19 +47,31 @@ static json_t *goal_json(const bench_result *result, size_t row)
                      words[bench_goal_of(result, row)]);
 }
 
+/* NULL: there are none. */
+static json_t *certificates_json(const bench_tally *t)
+{
+    const bench_certificates *c = &t->certificates;
+    if (c->count == 0) return NULL;
+    return json_pack("{s:I, s:I, s:o, s:o, s:o, s:o}", "count", (json_int_t)c->count, "hold",
+                     (json_int_t)c->hold, "bytes", spread_json(&c->bytes), "bytes_a_pair",
+                     output_json_number(c->bytes.mean / t->pairs.mean), "verify_seconds",
+                     spread_json(&c->seconds), "verify_over_solve",
+                     output_json_number(bench_verify_over_solve(t)));
+}
+
 static json_t *row_json(const bench_result *result, size_t at)
 {
     const bench_row *row = &result->rows[at], *baseline = result->baseline;
     const bench_tally *t = &row->tally;
     json_t *processor = row->method->question == BENCH_STREAM ? json_real(t->processor) : NULL;
-    return json_pack("{s:s, s:o, s:I, s:o, s:o, s:o, s:o, s:o, s:o, s:o, s:o, s:o*, s:o*}",
+    return json_pack("{s:s, s:o, s:I, s:o, s:o, s:o, s:o, s:o, s:o, s:o, s:o, s:o*, s:o*, s:o*}",
                      "method", row->method->name, "verdicts", verdicts_json(t), "ended",
                      (json_int_t)t->ended, "pairs", spread_json(&t->pairs), "nodes",
                      spread_json(&t->nodes), "witness_searches", spread_json(&t->searches),
                      "peak_heap", spread_json(&t->heap), "bytes", spread_json(&t->bytes), "seconds",
                      spread_json(&t->seconds), "ratio", ratio_json(t, baseline), "reference",
                      reference_json(t), "processor_seconds", processor, "goal",
-                     goal_json(result, at));
+                     goal_json(result, at), "certificates", certificates_json(t));
 }
 
 json_t *bench_result_json(const bench_result *result)

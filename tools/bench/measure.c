@@ -10,15 +10,14 @@
 
 /* --- One scene -------------------------------------------------------------------------------- */
 
-/* What this thread has computed so far: other processes of a busy machine do not count. */
-static double seconds_computed(void)
+double bench_seconds_computed(void)
 {
     struct timespec t;
     clock_gettime(CLOCK_THREAD_CPUTIME_ID, &t);
     return (double)t.tv_sec + 1e-9 * (double)t.tv_nsec;
 }
 
-static imp_scene *scene_of(imp_registry *registry, const bench_scene *s, imp_error *error)
+imp_scene *bench_scene_of(imp_registry *registry, const bench_scene *s, imp_error *error)
 {
     if (s->b != NULL) return imp_scene_from_pair(registry, s->a, s->b, error);
     return imp_scene_from_json(registry, s->a, strlen(s->a), "a scene of the benchmark", error);
@@ -51,9 +50,9 @@ static imp_code run(imp_query *query, imp_result *result, double *seconds, imp_e
     *result = (imp_result){0};
     *seconds = 0;
     if (query == NULL) return error->code;
-    const double start = seconds_computed();
+    const double start = bench_seconds_computed();
     const imp_code code = imp_query_step(query, 0, error);
-    *seconds = seconds_computed() - start;
+    *seconds = bench_seconds_computed() - start;
     if (code == IMP_SUCCESS) *result = imp_query_result(query);
     imp_query_free(query);
     return code;
@@ -65,9 +64,9 @@ static imp_code run_survey(imp_scene *scene, const imp_options *options, imp_res
 {
     imp_survey *survey = imp_survey_new(scene, options, NULL, NULL, error);
     if (survey == NULL) return error->code;
-    const double start = seconds_computed();
+    const double start = bench_seconds_computed();
     imp_code code = imp_survey_step(survey, 0, error);
-    *seconds = seconds_computed() - start;
+    *seconds = bench_seconds_computed() - start;
     *result = (imp_result){.struct_size = (uint32_t)sizeof *result};
     if (code == IMP_SUCCESS) code = imp_survey_get_result(survey, result, error);
     imp_survey_free(survey);
@@ -94,9 +93,9 @@ static imp_code run_clearance(imp_scene *scene, const imp_options *options, doub
     asked.decide = true;
     imp_query *query = imp_clearance_new(scene, options, &asked, error);
     if (query == NULL) return error->code;
-    const double start = seconds_computed();
+    const double start = bench_seconds_computed();
     imp_code code = imp_query_step(query, 0, error);
-    *seconds = seconds_computed() - start;
+    *seconds = bench_seconds_computed() - start;
     *least = (imp_clearance){.struct_size = (uint32_t)sizeof *least};
     if (code == IMP_SUCCESS) code = imp_clearance_get(query, 0, least, error);
     if (code == IMP_SUCCESS) {
@@ -112,7 +111,7 @@ static imp_code cut_interval(imp_registry *registry, const bench_scene *s, const
                              imp_options *options, imp_error *error)
 {
     if (!(c->cut > 0)) return IMP_SUCCESS;
-    imp_scene *scene = scene_of(registry, s, error);
+    imp_scene *scene = bench_scene_of(registry, s, error);
     if (scene == NULL) return error->code;
     imp_result first;
     double seconds;
@@ -127,7 +126,7 @@ static imp_code cut_interval(imp_registry *registry, const bench_scene *s, const
 static imp_code find_least(imp_registry *registry, const bench_scene *s, const imp_options *options,
                            double *distance, imp_error *error)
 {
-    imp_scene *scene = scene_of(registry, s, error);
+    imp_scene *scene = bench_scene_of(registry, s, error);
     if (scene == NULL) return error->code;
     imp_clearance least;
     imp_result result;
@@ -143,7 +142,7 @@ static imp_code solve_once(imp_registry *registry, const bench_scene *s, const b
                            const bench_method *m, const bench_request *request, imp_result *result,
                            double *seconds, imp_error *error)
 {
-    imp_scene *scene = scene_of(registry, s, error);
+    imp_scene *scene = bench_scene_of(registry, s, error);
     if (scene == NULL) return error->code;
     imp_options options = options_of(scene, c, m, request);
     imp_clearance answer;
@@ -221,6 +220,8 @@ imp_code bench_measure(imp_registry *registry, const bench_case *c, const bench_
 {
     if (m->question == BENCH_STREAM)
         return bench_measure_stream(registry, c, m, request, tally, error);
+    if (m->question == BENCH_CERTIFICATE)
+        return bench_measure_certificates(registry, c, request, tally, error);
     *tally = (bench_tally){.scenes = c->count, .earliest = NAN, .latest = NAN};
     columns x;
     *error = (imp_error){.code = IMP_ERROR_MEMORY};

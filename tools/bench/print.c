@@ -91,6 +91,15 @@ static void print_reference(const bench_tally *t)
     puts("");
 }
 
+static void print_certificates(const bench_tally *t)
+{
+    const bench_certificates *c = &t->certificates;
+    printf("    certificate: %.0f bytes, %.1f a pair; verified in %s, %.0f times the search",
+           c->bytes.mean, c->bytes.mean / t->pairs.mean, cell_seconds(c->seconds.mean, false).text,
+           bench_verify_over_solve(t));
+    printf("; %zu of %zu hold\n", c->hold, c->count);
+}
+
 static void print_goal(const bench_result *result, size_t row)
 {
     static const char *const words[] = {[BENCH_GOAL_NONE] = "",
@@ -122,6 +131,7 @@ static void print_row(const bench_result *result, size_t at)
     print_goal(result, at);
     puts("");
     if (t->references > 0 && result->about->goal[at] == 0) print_reference(t);
+    if (t->certificates.count > 0) print_certificates(t);
 }
 
 void bench_print_result(const bench_result *result)

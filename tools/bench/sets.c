@@ -256,6 +256,7 @@ static const bench_set *const all[] = {&figure7,
                                        &bench_bodies,
                                        &bench_surfaces,
                                        &bench_batch,
+                                       &bench_certificates_set,
                                        NULL};
 
 const bench_set *const *bench_sets_all(void) { return all; }

@@ -6,6 +6,7 @@
 
 #include <errno.h>
 #include <fcntl.h>
+#include <limits.h>
 #include <signal.h>
 #include <spawn.h>
 #include <stdint.h>
@@ -107,6 +108,21 @@ char *program_find(const char *name)
         path += length + (path[length] == ':');
     }
     return NULL;
+}
+
+char *program_beside(const char *name)
+{
+    char own[PATH_MAX], *file;
+    const ssize_t length = readlink("/proc/self/exe", own, sizeof own - 1);
+    own[length > 0 ? length : 0] = '\0';
+    char *slash = strrchr(own, '/');
+    if (slash == NULL) return program_find(name);
+    *slash = '\0';
+    if ((slash = strrchr(own, '/')) != NULL && strcmp(slash, "/.libs") == 0) *slash = '\0';
+    if (asprintf(&file, "%s/%s", own, name) < 0) return NULL;
+    if (access(file, X_OK) == 0) return file;
+    free(file);
+    return program_find(name);
 }
 
 bool program_words(char *text, const char **words, int *count, int most)

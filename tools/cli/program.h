@@ -23,6 +23,10 @@ program_end program_run(const char *const *words, program_stream stream, bool sh
 /* Returns the file that the shell would run for this name, or NULL. Free it. */
 char *program_find(const char *name);
 
+/* Returns the program of that name in this program's own folder (of a build tree: in tools), else
+ * on PATH, or NULL. Free it. */
+char *program_beside(const char *name);
+
 /* Appends the blank-separated words of `text`, which is modified, at words[*count]. False: there
  * would be more than `most`; the rest is left out. */
 bool program_words(char *text, const char **words, int *count, int most);
