@@ -14,6 +14,7 @@ core_common = \
     core/common/fp_control.h \
     core/common/sha256.c core/common/sha256.h \
     core/common/spelling.c core/common/spelling.h \
+    core/common/json_size.h \
     core/common/random.h \
     core/common/system_error.h \
     core/common/tunable.h
@@ -90,6 +91,7 @@ core_plugin = \
     core/plugin/parameters.c core/plugin/parameters.h core/plugin/parameters_internal.h \
     core/plugin/plugin_check.c core/plugin/plugin_check.h \
     core/plugin/plugin_file.c core/plugin/plugin_file.h \
+    core/plugin/reading_limits.h \
     core/plugin/registry.c core/plugin/registry.h \
     core/plugin/registry_internal.h \
     core/plugin/registry_scan.c \
@@ -233,6 +235,7 @@ core_reader = \
     core/reader/instance_table.c core/reader/instance_table.h \
     core/reader/pipeline.c core/reader/pipeline.h \
     core/reader/pipeline_value.c core/reader/pipeline_value.h \
+    core/reader/reading_budget.c core/reader/reading_budget.h \
     core/reader/required_plugins.c core/reader/required_plugins.h \
     core/reader/scene_bodies.c core/reader/scene_bodies.h \
     core/reader/scene_build.c core/reader/scene_build.h \

@@ -26,6 +26,8 @@ const char *imp_code_text(imp_code code)
         return "file cannot be read or written";
     case IMP_ERROR_MEMORY:
         return "out of memory";
+    case IMP_ERROR_LIMIT:
+        return "limit reached";
     }
     return "unknown code";
 }

@@ -56,7 +56,8 @@ typedef enum imp_code {
     IMP_ERROR_SCENE,  /* a scene, a parameter or a pipeline is wrong */
     IMP_ERROR_PLUGIN, /* a plugin broke the ABI's promises */
     IMP_ERROR_FILE,   /* a file cannot be read or written */
-    IMP_ERROR_MEMORY  /* memory ran out */
+    IMP_ERROR_MEMORY, /* memory ran out */
+    IMP_ERROR_LIMIT   /* reading a scene has reached a limit (imp_registry_limit_reading) */
 } imp_code;
 
 /* Misuse: where a function needs an object, a text or a place that is NULL, or an index is out of
@@ -140,6 +141,15 @@ IMP_EXPORT void imp_registry_free(imp_registry *registry);
  */
 IMP_EXPORT imp_code imp_registry_isolate(imp_registry *registry, const char *names,
                                          imp_error *error);
+
+/* From now on, each scene that is made of text (imp_scene_from_json, imp_scene_from_file,
+ * imp_scene_from_pair) may take at most that many seconds of the calling thread's processor time,
+ * and hold that many bytes meanwhile; 0: no limit, which is where a registry begins. Beyond them
+ * making it ends with IMP_ERROR_LIMIT. A file that a parameter names counts before it is opened,
+ * and what create holds as far as it tells (imp_goes_on in <impinge/plugin.h>). No other thread
+ * uses the registry meanwhile. IMP_ERROR_USAGE: the seconds are negative or no number. */
+IMP_EXPORT imp_code imp_registry_limit_reading(imp_registry *registry, double seconds,
+                                               uint64_t bytes, imp_error *error);
 
 typedef enum imp_type_kind { IMP_TYPE_SURFACE, IMP_TYPE_MAP } imp_type_kind;
 

@@ -6,6 +6,8 @@
 #include <semaphore.h>
 #include <stdatomic.h>
 
+#include "core/plugin/reading_limits.h"
+
 #include <impinge/surface.h>
 
 /* The memory that the host shares with a worker
@@ -68,6 +70,8 @@ typedef struct channel_work {
     void *self; /* the instance, as the worker knows it: set by REQUEST_CREATE */
     imp_status status;
     imp_create_error why;
+    reading_limits limits; /* of REQUEST_CREATE */
+    reading_end end;       /* set by REQUEST_CREATE: which of them ended it */
     size_t
         pieces; /* set by REQUEST_CREATE of a type that has them, else 0; how many are in bytes */
     double lo[3], hi[3]; /* domain, after REQUEST_CREATE; a map: times in [0], span in [1] */

@@ -35,8 +35,12 @@ static imp_status request_create(isolated *i, const unsigned char *bytes, size_t
     c->why = *why;
     status = send_bytes(i, bytes, size);
     c->n = count;
+    c->limits = i->limits;
+    c->end = READING_GOES_ON;
     if (status == IMP_STATUS_OK) status = worker_request(i->worker, i, REQUEST_CREATE);
     *why = c->why;
+    why->goes_on = NULL; /* the worker's own */
+    i->end = c->end;
     i->own.self = status == IMP_STATUS_OK ? c->self : NULL;
     memcpy(i->own.lo, c->lo, sizeof i->own.lo);
     memcpy(i->own.hi, c->hi, sizeof i->own.hi);
@@ -132,6 +136,10 @@ imp_status isolate_create(isolated *i, const imp_value *values, imp_create_error
     if (status > IMP_STATUS_INTERNAL) name_callback(i);
     return status;
 }
+
+void isolate_limit(isolated *i, reading_limits limits) { i->limits = limits; }
+
+reading_end isolate_end(const isolated *i) { return i->end; }
 
 /* There is no one to answer to: the pool keeps what went wrong. */
 static void request_destroy(isolated *i)

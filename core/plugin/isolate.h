@@ -3,6 +3,7 @@
 #ifndef CORE_PLUGIN_ISOLATE_H
 #define CORE_PLUGIN_ISOLATE_H
 
+#include "core/plugin/reading_limits.h"
 #include "core/plugin/worker_pool.h"
 #include "core/surface/surface.h"
 
@@ -26,6 +27,11 @@ isolated *isolate_map(worker_pool *pool, const imp_map_type *type);
 
 /* Runs create in the worker. SURFACE_NO_PROCESS: no process could be made, why->text says why. */
 imp_status isolate_create(isolated *i, const imp_value *values, imp_create_error *why);
+
+/* Set the limits to which the worker holds create where it asks (imp_goes_on), and return which of
+ * them it has reached. */
+void isolate_limit(isolated *i, reading_limits limits);
+reading_end isolate_end(const isolated *i);
 
 /* The types whose `self` is `i`; they live as long as it does. */
 const imp_surface_type *isolate_surface_type(const isolated *i);

@@ -36,6 +36,8 @@ struct isolated {
     worker *worker;         /* NULL: could not start */
     isolated_piece *pieces; /* piece_count of them, unless that breaks the ABI; or NULL */
     size_t piece_count;
+    reading_limits limits;   /* of create */
+    reading_end end;         /* which of them create has reached */
     inclusions_ahead *ahead; /* of the pieces; NULL: none was asked for yet */
 };
 

@@ -136,6 +136,19 @@ imp_code imp_registry_isolate(imp_registry *registry, const char *names, imp_err
     return IMP_SUCCESS;
 }
 
+imp_code imp_registry_limit_reading(imp_registry *registry, double seconds, uint64_t bytes,
+                                    imp_error *error)
+{
+    if (registry == NULL) return error_set_missing(error, "imp_registry_limit_reading");
+    if (!(seconds >= 0))
+        return error_set(error, IMP_ERROR_USAGE,
+                         "imp_registry_limit_reading: got %g seconds, must be 0 or more", seconds);
+    registry->reading = (reading_limits){seconds, bytes};
+    return IMP_SUCCESS;
+}
+
+reading_limits registry_reading_limits(const imp_registry *registry) { return registry->reading; }
+
 bool imp_registry_type(const imp_registry *registry, size_t index, imp_type_info *info)
 {
     if (registry == NULL || info == NULL || index >= registry->type_count) return false;

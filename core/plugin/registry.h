@@ -6,6 +6,7 @@
 #include <impinge/impinge.h>
 
 #include "core/base/arena_store.h"
+#include "core/plugin/reading_limits.h"
 #include "core/plugin/search_path.h"
 #include "core/plugin/worker_pool.h"
 
@@ -24,6 +25,9 @@ arena_store *registry_store(const imp_registry *registry);
 /* Returns the instances that are kept for the next scenes of the same files (kept_instances.h). */
 struct kept_instances;
 struct kept_instances *registry_kept(const imp_registry *registry);
+
+/* Returns the limits of imp_registry_limit_reading. */
+reading_limits registry_reading_limits(const imp_registry *registry);
 
 /* Find a type by its name. NULL: not found. */
 const imp_surface_type *registry_find_surface(const imp_registry *registry, const char *name);

@@ -53,6 +53,7 @@ struct imp_registry {
     char *isolated; /* names between commas, ",a,b,"; "" for all; NULL for none */
     arena_store *store;
     struct kept_instances *kept;
+    reading_limits reading;
     worker_pool *workers; /* where isolated types run; NULL: none was isolated yet */
 };
 

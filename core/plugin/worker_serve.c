@@ -12,6 +12,7 @@
 #include "core/surface/surface.h"
 
 #include <errno.h>
+#include <stddef.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
@@ -98,11 +99,23 @@ static void domain(server *s, const void *instance)
     take_back(s);
 }
 
+/* What create asks (imp_create_error.goes_on); the limit on seconds is a time of the clock here. */
+static int goes_on(imp_create_error *why, uint64_t bytes)
+{
+    channel_work *w = (channel_work *)(void *)((char *)why - offsetof(channel_work, why));
+    if (w->limits.bytes > 0 && bytes > w->limits.bytes) w->end = READING_OUT_OF_ROOM;
+    if (w->limits.seconds > 0 && clock_thread_seconds() > w->limits.seconds)
+        w->end = READING_OUT_OF_TIME;
+    return w->end == READING_GOES_ON;
+}
+
 static imp_status create_with(server *s, const imp_value *values)
 {
     channel_work *w = &s->work;
     const worker_type type = s->type;
     begin(s, CALLBACK_CREATE);
+    w->why.goes_on = goes_on;
+    if (w->limits.seconds > 0) w->limits.seconds += clock_thread_seconds();
     const imp_status status = type.surface != NULL ? type.surface->create(values, &w->self, &w->why)
                                                    : type.map->create(values, &w->self, &w->why);
     if (status != IMP_STATUS_OK || w->self == NULL) return status;

@@ -12,6 +12,7 @@
 #include "core/plugin/type_view.h"
 #include "core/reader/scene_build.h"
 
+#include <stddef.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
@@ -91,27 +92,41 @@ static imp_code judge_failure(imp_status status, const type_view *view, const ch
     return blame(file, view, what, at, error);
 }
 
-/* In this process, or in that of the stand-in, which then is the instance. */
-static imp_status call_create(const type_view *view, isolated *stand_in, const imp_value *values,
-                              void **self, imp_create_error *why)
-{
-    if (stand_in == NULL) return view->create(values, self, why);
-    *self = stand_in;
-    return isolate_create(stand_in, values, why);
-}
-
 /* A complaint, and marks on either side that show when create writes beyond it. */
 #define MARK 0x5a
 typedef struct guarded_error {
     unsigned char before[64];
     imp_create_error why;
     unsigned char after[256]; /* texts that are too long end here */
+    reading_budget *budget;   /* NULL: no limits */
 } guarded_error;
 
-static void guard(guarded_error *g)
+/* What create asks (imp_create_error.goes_on). */
+static int goes_on(imp_create_error *why, uint64_t bytes)
+{
+    const guarded_error *g =
+        (const guarded_error *)(const void *)((const char *)why - offsetof(guarded_error, why));
+    return reading_budget_allows(g->budget, bytes);
+}
+
+static void guard(guarded_error *g, reading_budget *budget)
 {
     memset(g, MARK, sizeof *g);
     g->why = (imp_create_error){.struct_size = sizeof g->why, .parameter = -1, .element = -1};
+    g->budget = budget;
+    if (budget != NULL) g->why.goes_on = goes_on;
+}
+
+/* In this process, or in that of the stand-in, which then is the instance. */
+static imp_status call_create(const type_view *view, isolated *stand_in, const imp_value *values,
+                              void **self, guarded_error *g)
+{
+    if (stand_in == NULL) return view->create(values, self, &g->why);
+    *self = stand_in;
+    isolate_limit(stand_in, reading_budget_rest(g->budget));
+    const imp_status status = isolate_create(stand_in, values, &g->why);
+    if (g->budget != NULL) g->budget->end = isolate_end(stand_in);
+    return status;
 }
 
 static bool is_whole(const guarded_error *g)
@@ -139,32 +154,35 @@ static void take_note(const parameter_table *table, const imp_create_error *why,
 }
 
 /* Runs the plugin's create and judges its answer. */
-static imp_code run_create(const type_view *view, isolated *stand_in, const char *file,
-                           const parameter_values *values, const place *at, void **self,
-                           scene_build_note *note, imp_error *error)
+static imp_code run_create(scene_making *m, const place *at, scene_build_note *note,
+                           imp_error *error)
 {
+    const type_view *view = &m->view;
+    void **self = &m->instance.self;
     guarded_error g;
-    guard(&g);
+    guard(&g, m->budget);
     *self = NULL;
     fp_mode before = fp_mode_read();
-    imp_call *call = stand_in == NULL ? active_callback_begin(view->name, "create") : NULL;
-    imp_status status = call_create(view, stand_in, values->value, self, &g.why);
+    imp_call *call = m->stand_in == NULL ? active_callback_begin(view->name, "create") : NULL;
+    imp_status status = call_create(view, m->stand_in, m->values.value, self, &g);
     if (call != NULL) active_callback_end(call);
     bool kept = fp_mode_kept(before);
     if (!is_whole(&g))
-        return blame(file, view, "create wrote beyond the imp_create_error it was given", at,
+        return blame(m->file, view, "create wrote beyond the imp_create_error it was given", at,
                      error);
+    if (status == IMP_STATUS_INTERNAL && reading_budget_is_over(m->budget))
+        return reading_budget_refuse(m->budget, at, error);
     if (status != IMP_STATUS_OK)
-        return judge_failure(status, view, file, values, &g.why, at, error);
+        return judge_failure(status, view, m->file, &m->values, &g.why, at, error);
     if (*self == NULL)
-        return blame(file, view, "create returned IMP_STATUS_OK without an instance", at, error);
+        return blame(m->file, view, "create returned IMP_STATUS_OK without an instance", at, error);
     if (note != NULL && g.why.note_count > 0) take_note(&view->table, &g.why, note);
     if (note != NULL) note->is_repeatable = g.why.is_repeatable == 1;
     if (kept) return IMP_SUCCESS;
     view->destroy(*self);
     *self = NULL;
     fp_mode_kept(before);
-    return blame(file, view, "create changed the mode of arithmetic", at, error);
+    return blame(m->file, view, "create changed the mode of arithmetic", at, error);
 }
 
 /* Bytes of the regular files that the values name: create reads them, and keeps about as much. */
@@ -240,7 +258,7 @@ static imp_code find_type(const imp_registry *registry, imp_type_kind kind, cons
 imp_code scene_making_begin(scene_making *m, const scene_source *source, imp_type_kind kind,
                             const json_t *object, const place *at, imp_error *error)
 {
-    *m = (scene_making){.view.name = NULL};
+    *m = (scene_making){.budget = source->budget};
     imp_code code = find_type(source->registry, kind, object, at, m, error);
     if (code != IMP_SUCCESS) return code;
     code = parameters_read(&m->view.table, m->view.name, object, source->folder, at, &m->values,
@@ -253,7 +271,7 @@ imp_code scene_making_begin_numbers(scene_making *m, const scene_source *source,
                                     const char *type, const imp_argument *arguments, size_t count,
                                     const place *at, imp_error *error)
 {
-    *m = (scene_making){.view.name = NULL};
+    *m = (scene_making){.budget = source->budget};
     if (!look_up(source->registry, kind, type, m)) return IMP_SUCCESS;
     imp_code code = parameter_numbers_read(&m->view.table, arguments, count, at, &m->values, error);
     if (code != IMP_SUCCESS || m->values.value == NULL) return code;
@@ -266,13 +284,16 @@ imp_code scene_making_create(scene_making *m, const place *at, scene_build_note 
                              imp_error *error)
 {
     imp_code code;
-    if (note == NULL || !m->view.has_formula || keep_numbers(&m->view, &m->values, &note->numbers))
-        code = run_create(&m->view, m->stand_in, m->file, &m->values, at, &m->instance.self, note,
-                          error);
+    const uint64_t of_files = bytes_of_files(&m->view.table, &m->values);
+    if (!reading_budget_allows(m->budget, of_files))
+        code = reading_budget_refuse(m->budget, at, error);
+    else if (note == NULL || !m->view.has_formula ||
+             keep_numbers(&m->view, &m->values, &note->numbers))
+        code = run_create(m, at, note, error);
     else
         code = error_set_memory(error);
     if (code != IMP_SUCCESS) m->instance.self = NULL;
-    if (note != NULL) note->bytes += bytes_of_files(&m->view.table, &m->values);
+    if (note != NULL) note->bytes += of_files;
     if (note != NULL && m->stand_in != NULL) note->bytes += isolate_bytes(m->stand_in);
     return code;
 }

@@ -10,6 +10,7 @@
 #include "core/plugin/parameters.h"
 #include "core/plugin/registry.h"
 #include "core/plugin/type_view.h"
+#include "core/reader/reading_budget.h"
 #include "core/surface/surface.h"
 
 #include <impinge/examine.h>
@@ -24,6 +25,7 @@ typedef struct scene_source {
     const char
         *folder; /* of the scene file, with '/' at its end: where relative names of files begin;
                            NULL: where the process does */
+    reading_budget *budget; /* NULL: no limits */
 } scene_source;
 
 /* Makes the surface, without maps, or the map that `object` at `at` asks for, or finds one that the
@@ -50,8 +52,9 @@ imp_code scene_build_instance(const scene_source *source, imp_type_kind kind, co
 typedef struct scene_making {
     imp_instance instance; /* its `self` is NULL until create has made it */
     type_view view;
-    const char *file;   /* of the plugin */
-    isolated *stand_in; /* NULL: it is not isolated */
+    const char *file;       /* of the plugin */
+    isolated *stand_in;     /* NULL: it is not isolated */
+    reading_budget *budget; /* NULL: no limits */
     parameter_values values;
 } scene_making;
 

@@ -6,6 +6,7 @@
 #include "core/base/fp_mode.h"
 #include "core/base/json_text.h"
 #include "core/base/text.h"
+#include "core/common/json_size.h"
 #include "core/plugin/json_describe.h"
 #include "core/plugin/parameters.h"
 #include "core/reader/json_keys.h"
@@ -19,6 +20,7 @@
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
+#include <sys/stat.h>
 
 static const char *const scene_keys[] = {"time",   "gamma",   "gamma_clear", "define", "bodies",
                                          "ignore", "id",      "reference",   "note",   "gravity",
@@ -141,7 +143,7 @@ static bool is_blank(const char *text, size_t length)
 
 /* `name` is a path, or words without '/': then there is no folder. */
 static imp_scene *scene_of_text(const imp_registry *registry, json_t *root, const char *name,
-                                imp_error *error)
+                                reading_budget *budget, imp_error *error)
 {
     const char *slash = strrchr(name, '/');
     char *folder = slash != NULL ? strndup(name, (size_t)(slash - name) + 1) : NULL;
@@ -149,11 +151,49 @@ static imp_scene *scene_of_text(const imp_registry *registry, json_t *root, cons
         error_set_memory(error);
         return NULL;
     }
-    const scene_source source = {registry, folder};
+    const scene_source source = {registry, folder, budget};
     const place at = place_document(name);
     imp_scene *scene = scene_of(&source, root, &at, error);
     free(folder);
     return scene;
+}
+
+/* A text that is handed to the parser in parts. */
+typedef struct parted_text {
+    const char *at;
+    size_t left;
+    reading_budget *budget;
+} parted_text;
+
+static size_t next_part(void *to, size_t size, void *context)
+{
+    parted_text *text = context;
+    const size_t n = size < text->left ? size : text->left;
+    reading_budget_take(text->budget, json_size_parsed(text->at, n));
+    if (!reading_budget_allows(text->budget, 0)) return (size_t)-1;
+    memcpy(to, text->at, n);
+    text->at += n;
+    text->left -= n;
+    return n;
+}
+
+static json_t *parse(const char *text, size_t length, const char *name, reading_budget *budget,
+                     imp_error *error)
+{
+    json_error_t fault;
+    parted_text parts = {text, length, budget};
+    reading_budget_take(budget, length);
+    errno = 0; /* jansson tells a few failed allocations as errors of syntax */
+    json_t *root = json_load_callback(next_part, &parts, PARAMETERS_JSON_FLAGS, &fault);
+    if (root != NULL) return root;
+    const place at = place_document(name);
+    if (reading_budget_is_over(budget))
+        reading_budget_refuse(budget, &at, error);
+    else if (errno == ENOMEM)
+        error_set_memory(error);
+    else
+        refuse_syntax(name, &fault, error);
+    return NULL;
 }
 
 FP_APART static imp_scene *from_json(imp_registry *registry, const char *text, size_t length,
@@ -172,17 +212,10 @@ FP_APART static imp_scene *from_json(imp_registry *registry, const char *text, s
                   name);
         return NULL;
     }
-    json_error_t fault;
-    errno = 0; /* jansson tells a few failed allocations as errors of syntax */
-    json_t *root = json_loadb(text, length, PARAMETERS_JSON_FLAGS, &fault);
-    if (root == NULL) {
-        if (errno == ENOMEM)
-            error_set_memory(error);
-        else
-            refuse_syntax(name, &fault, error);
-        return NULL;
-    }
-    imp_scene *scene = scene_of_text(registry, root, name, error);
+    reading_budget budget = reading_budget_begin(registry);
+    json_t *root = parse(text, length, name, &budget, error);
+    if (root == NULL) return NULL;
+    imp_scene *scene = scene_of_text(registry, root, name, &budget, error);
     json_decref(root);
     return scene;
 }
@@ -196,6 +229,13 @@ imp_scene *imp_scene_from_json(imp_registry *registry, const char *text, size_t 
     return scene;
 }
 
+/* Returns the length of a regular file, else 0. */
+static uint64_t file_bytes(const char *path)
+{
+    struct stat file;
+    return stat(path, &file) == 0 && S_ISREG(file.st_mode) ? (uint64_t)file.st_size : 0;
+}
+
 imp_scene *imp_scene_from_file(imp_registry *registry, const char *path, imp_error *error)
 {
     if (registry == NULL || path == NULL) {
@@ -204,6 +244,12 @@ imp_scene *imp_scene_from_file(imp_registry *registry, const char *path, imp_err
     }
     char *text;
     size_t length;
+    const place at = place_document(path);
+    reading_budget budget = reading_budget_begin(registry);
+    if (!reading_budget_allows(&budget, file_bytes(path))) {
+        reading_budget_refuse(&budget, &at, error);
+        return NULL;
+    }
     if (file_text_read(path, &text, &length, error) != IMP_SUCCESS) return NULL;
     imp_scene *scene = imp_scene_from_json(registry, text, length, path, error);
     free(text);
@@ -231,7 +277,8 @@ FP_APART static imp_scene *from_pair(imp_registry *registry, const char *a, cons
         return NULL;
     }
     scene_bodies scene;
-    const scene_source source = {.registry = registry};
+    reading_budget budget = reading_budget_begin(registry);
+    const scene_source source = {.registry = registry, .budget = &budget};
     imp_code code = scene_bodies_start(&scene, &source, error);
     if (code == IMP_SUCCESS) code = add_pipeline(&scene, "a", a);
     if (code == IMP_SUCCESS) code = add_pipeline(&scene, "b", b);

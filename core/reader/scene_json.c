@@ -88,6 +88,8 @@ static imp_code add_body(scene_bodies *b, json_t *body, const place *at)
         code = json_keys_array(body, "surfaces", false, at, &surfaces, b->error);
     if (code == IMP_SUCCESS) code = json_keys_array(body, "maps", false, at, &maps, b->error);
     if (code != IMP_SUCCESS) return code;
+    reading_budget *budget = b->instances.source.budget;
+    if (!reading_budget_allows(budget, 0)) return reading_budget_refuse(budget, at, b->error);
     assembly_body *made = &b->assembly.bodies[index];
     code = scene_instances_surfaces(&b->instances, surfaces, &at_surfaces, &made->shapes);
     if (code == IMP_SUCCESS)
@@ -162,10 +164,13 @@ static imp_code ignore_pairs(scene_bodies *b, const json_t *root, const place *a
 {
     json_t *pairs;
     const place member = place_key(at, "ignore");
+    reading_budget *budget = b->instances.source.budget;
     imp_code code = json_keys_array(root, "ignore", false, at, &pairs, b->error);
     for (size_t i = 0; code == IMP_SUCCESS && i < json_array_size(pairs); ++i) {
         const place element = place_index(&member, i);
         code = ignore_pair(b, json_array_get(pairs, i), &element);
+        if (code == IMP_SUCCESS && !reading_budget_allows(budget, 0))
+            code = reading_budget_refuse(budget, &element, b->error);
     }
     return code;
 }

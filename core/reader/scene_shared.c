@@ -159,6 +159,7 @@ imp_code scene_build_shared(const scene_source *source, imp_type_kind kind, cons
     if (code != IMP_SUCCESS) return code;
     code = find_or_make(registry_kept(source->registry), &m, object, at, made, error);
     scene_making_clear(&m);
+    if (code == IMP_SUCCESS) reading_budget_take(source->budget, instance_bytes(*made));
     return code;
 }
 

@@ -13,7 +13,8 @@ static imp_status refuse(triangles_fault *fault, const char *path)
 }
 
 /* At most as much as the file was long when it was opened. */
-imp_status mesh_read_whole(const char *path, char **bytes, size_t *length, triangles_fault *fault)
+imp_status mesh_read_whole(const char *path, char **bytes, size_t *length, const triangles *to,
+                           triangles_fault *fault)
 {
     struct stat facts;
     *bytes = NULL;
@@ -21,6 +22,7 @@ imp_status mesh_read_whole(const char *path, char **bytes, size_t *length, trian
     if (facts.st_size > BYTES_MAX)
         return triangles_refuse(fault, 0, "'%.80s' has %lld bytes, may have 2^30; divide the mesh",
                                 path, (long long)facts.st_size);
+    if (!triangles_may_take(to, (size_t)facts.st_size)) return IMP_STATUS_INTERNAL;
     FILE *file = fopen(path, "rbe");
     if (file == NULL) return refuse(fault, path);
     *bytes = malloc((size_t)facts.st_size + 1);

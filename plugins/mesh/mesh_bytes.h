@@ -6,8 +6,10 @@
 #include "plugins/mesh/triangles.h"
 
 /* The bytes of a whole file, for free(). Only of files, since a pipe or a device might never end,
- * and of 2^30 bytes at most. IMP_STATUS_PARAMETER: it cannot be read, and the fault names it;
- * IMP_STATUS_INTERNAL: no memory. */
-imp_status mesh_read_whole(const char *path, char **bytes, size_t *length, triangles_fault *fault);
+ * and of 2^30 bytes at most. Before the file is opened, its bytes are added to what `to` holds and
+ * asked for (triangles_may_take). IMP_STATUS_PARAMETER: it cannot be read, and the fault names it;
+ * IMP_STATUS_INTERNAL: no memory, or a limit. */
+imp_status mesh_read_whole(const char *path, char **bytes, size_t *length, const triangles *to,
+                           triangles_fault *fault);
 
 #endif

@@ -89,7 +89,8 @@ imp_status mesh_read_file(const char *path, int row, triangles *to, imp_create_e
                           "'%.100s': triangles of such a file share no points; write it as .obj, "
                           ".off or .ply",
                           path);
-    imp_status status = mesh_read_whole(path, &bytes, &length, &fault);
+    imp_status status = mesh_read_whole(path, &bytes, &length, to, &fault);
+    to->held = length;
     if (status == IMP_STATUS_PARAMETER) return imp_reject(why, row, -1, "%s", fault.text);
     char *folder = status == IMP_STATUS_OK ? folder_of(path) : NULL;
     if (folder != NULL)
@@ -99,5 +100,6 @@ imp_status mesh_read_file(const char *path, int row, triangles *to, imp_create_e
     free(folder);
     free(bytes);
     if (status == IMP_STATUS_OK && !to->has_other_files) imp_repeatable(why);
+    to->held = 0;
     return status == IMP_STATUS_PARAMETER ? complain(path, row, &fault, why) : status;
 }

@@ -232,6 +232,8 @@ static imp_status check_document(const json_t *root, triangles_fault *fault)
 static imp_status read_document(const char *text, size_t length, gltf_data *data, triangles *to)
 {
     json_error_t error;
+    if (!triangles_may_take(to, length)) return IMP_STATUS_INTERNAL;
+    to->held += length; /* what is parsed holds the texts again, buffers in base64 among them */
     json_t *root = json_loadb(text, length, JSON_REJECT_DUPLICATES, &error);
     if (root == NULL)
         return triangles_refuse(data->fault, error.line > 0 ? (size_t)error.line : 0,
@@ -289,7 +291,7 @@ static imp_status read_binary(const char *bytes, size_t length, gltf_data *data,
 imp_status mesh_read_gltf(const char *bytes, size_t length, const char *folder, triangles *to,
                           triangles_fault *fault)
 {
-    gltf_data data = {.folder = folder, .fault = fault};
+    gltf_data data = {.folder = folder, .fault = fault, .to = to};
     const bool is_binary = length >= 4 && memcmp(bytes, "glTF", 4) == 0;
     return (is_binary ? read_binary : read_document)(bytes, length, &data, to);
 }

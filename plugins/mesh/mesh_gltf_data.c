@@ -75,7 +75,10 @@ static imp_status open_text(gltf_data *d, const char *uri, json_int_t index, glt
     const char *mark = strstr(uri, ";base64,");
     if (mark == NULL) return gltf_refuse(d, "buffers", index, "/uri", "data that is not in base64");
     const char *text = mark + strlen(";base64,");
-    b->owned = malloc(strlen(text) / 4 * 3 + 4);
+    const size_t size = strlen(text) / 4 * 3 + 4;
+    if (!triangles_may_take(d->to, size)) return IMP_STATUS_INTERNAL;
+    d->to->held += size;
+    b->owned = malloc(size);
     if (b->owned == NULL) return IMP_STATUS_INTERNAL;
     if (!decode(text, b->owned, &b->length))
         return gltf_refuse(d, "buffers", index, "/uri", "a character that is not base64");
@@ -118,7 +121,9 @@ static imp_status open_file(gltf_data *d, const char *uri, json_int_t index, glt
     if (!write_path(d->folder, uri, path, sizeof path))
         return gltf_refuse(d, "buffers", index, "/uri", "too long a name");
     d->has_other_files = true;
-    return mesh_read_whole(path, &b->owned, &b->length, d->fault);
+    const imp_status status = mesh_read_whole(path, &b->owned, &b->length, d->to, d->fault);
+    if (status == IMP_STATUS_OK) d->to->held += b->length;
+    return status;
 }
 
 static imp_status load(gltf_data *d, const json_t *buffer, json_int_t index, gltf_buffer *b)

@@ -26,6 +26,7 @@ typedef struct gltf_data {
     gltf_buffer *buffers; /* as many as the document has; NULL before the first */
     bool has_other_files; /* some were opened */
     triangles_fault *fault;
+    triangles *to; /* counts what is held */
 } gltf_data;
 
 void gltf_data_clear(gltf_data *d);

@@ -89,9 +89,11 @@ static void tell(const triangles *t, bool is_file, imp_create_error *why)
 
 imp_status mesh_take_shape(const imp_value *values, triangles *to, imp_create_error *why)
 {
+    to->why = why;
     imp_status status = take_shape(values, to, why);
     if (status == IMP_STATUS_OK) status = apply_scale(values, to, why);
     if (status == IMP_STATUS_OK) tell(to, imp_is_given(&values[MESH_FILE]), why);
+    to->why = NULL;
     return status;
 }
 

@@ -36,6 +36,21 @@ imp_status triangles_refuse_byte(triangles_fault *fault, size_t byte, const char
     return IMP_STATUS_PARAMETER;
 }
 
+bool triangles_may_take(const triangles *t, size_t more)
+{
+    const size_t corners = t->keeps_faces ? t->count + t->corner_count : 3 * t->count;
+    return t->why == NULL ||
+           imp_goes_on(t->why, t->held + more + 3 * t->point_count * sizeof *t->point +
+                                   corners * sizeof *t->corner);
+}
+
+/* Asks whether to go on at the first of every few items. */
+static bool goes_on_at(const triangles *t, size_t item)
+{
+    enum { ITEMS = 1024 };
+    return item % ITEMS != 0 || triangles_may_take(t, 0);
+}
+
 /* Room for three more items of that size. NULL: no memory; the old ones are still there. */
 static void *reserve(void *items, size_t used, size_t *capacity, size_t size)
 {
@@ -54,6 +69,7 @@ imp_status triangles_add_point(triangles *t, const double x[3], size_t line, tri
                                     x[i]);
     if (t->point_count >= 3 * IMP_PIECES_MAX)
         return triangles_refuse(fault, line, "more than %zu points", 3 * IMP_PIECES_MAX);
+    if (!goes_on_at(t, t->point_count)) return IMP_STATUS_INTERNAL;
     double *grown = reserve(t->point, t->point_count, &t->point_capacity, sizeof *grown);
     if (grown == NULL) return IMP_STATUS_INTERNAL;
     t->point = grown;
@@ -67,6 +83,7 @@ static imp_status add_triangle(triangles *t, uint32_t a, uint32_t b, uint32_t c,
     if (t->count >= IMP_PIECES_MAX)
         return triangles_refuse(fault, line, "more than %zu triangles; divide the mesh",
                                 IMP_PIECES_MAX);
+    if (!goes_on_at(t, t->count)) return IMP_STATUS_INTERNAL;
     uint32_t *grown = reserve(t->corner, t->count, &t->capacity, sizeof *grown);
     if (grown == NULL) return IMP_STATUS_INTERNAL;
     t->corner = grown;
@@ -93,6 +110,7 @@ static imp_status keep_face(triangles *t, const int64_t *corner, size_t count, s
     if (t->count >= IMP_PIECES_MAX)
         return triangles_refuse(fault, line, "more than %zu faces; divide the mesh",
                                 IMP_PIECES_MAX);
+    if (!goes_on_at(t, t->count)) return IMP_STATUS_INTERNAL;
     uint32_t *first = room_for(t->first, t->count, 1, &t->first_capacity);
     if (first == NULL) return IMP_STATUS_INTERNAL;
     t->first = first;

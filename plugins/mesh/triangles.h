@@ -30,6 +30,8 @@ typedef struct triangles {
     triangles_count left_out; /* statements of a file that are no points and no faces */
     triangles_count cut;      /* polygons that a fan would not cover */
     bool has_other_files;     /* the file named others, which were read */
+    imp_create_error *why;    /* for imp_goes_on; NULL: no limits */
+    size_t held;              /* bytes beside these: of files that are being read */
 } triangles;                  /* begins as {0}, or with keeps_faces set; triangles_clear frees */
 
 void triangles_clear(triangles *t);
@@ -49,8 +51,11 @@ imp_status triangles_refuse(triangles_fault *fault, size_t line, const char *for
 imp_status triangles_refuse_byte(triangles_fault *fault, size_t byte, const char *format, ...)
     __attribute__((format(printf, 3, 4)));
 
+/* Whether to go on (imp_goes_on), with `more` bytes beside what is there. */
+bool triangles_may_take(const triangles *t, size_t more);
+
 /* IMP_STATUS_PARAMETER: a coordinate is not finite or too large, or there are too many points.
- * IMP_STATUS_INTERNAL: no memory. */
+ * IMP_STATUS_INTERNAL: no memory, or a limit. */
 imp_status triangles_add_point(triangles *t, const double x[3], size_t line,
                                triangles_fault *fault);
 

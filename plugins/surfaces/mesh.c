@@ -45,8 +45,11 @@ static void mesh_destroy(void *self)
 
 /* --- Creation --------------------------------------------------------------------------------- */
 
-static imp_status make_pieces(mesh *m)
+static imp_status make_pieces(mesh *m, imp_create_error *why)
 {
+    const size_t of_points = 3 * m->triangles.point_count * sizeof *m->triangles.point;
+    const size_t of_piece = sizeof *m->pieces + 3 * sizeof *m->triangles.corner;
+    if (!imp_goes_on(why, of_points + m->triangles.count * of_piece)) return IMP_STATUS_INTERNAL;
     m->pieces = malloc(m->triangles.count * sizeof *m->pieces);
     if (m->pieces == NULL) return IMP_STATUS_INTERNAL;
     for (size_t k = 0; k < m->triangles.count; ++k) {
@@ -66,7 +69,7 @@ static imp_status mesh_create(const imp_value *values, void **self, imp_create_e
     imp_status status = mesh_take_shape(values, &m->triangles, why);
     if (status == IMP_STATUS_OK)
         status = mesh_take_velocities(values, m->triangles.point_count, &m->velocity, why);
-    if (status == IMP_STATUS_OK) status = make_pieces(m);
+    if (status == IMP_STATUS_OK) status = make_pieces(m, why);
     if (status == IMP_STATUS_OK)
         *self = m;
     else

@@ -144,6 +144,14 @@ static inline void imp_repeatable(imp_create_error *why)
     if (IMP_HAS(why, is_repeatable)) why->is_repeatable = 1;
 }
 
+/* Whether create goes on, while it holds that many bytes: a create that may take long, or much
+ * memory, asks this before each large block and every few thousand items. 0: a limit was reached;
+ * free everything and return IMP_STATUS_INTERNAL. */
+static inline int imp_goes_on(imp_create_error *why, uint64_t bytes)
+{
+    return !IMP_OFFERS(why, goes_on) || why->goes_on(why, bytes);
+}
+
 /* --- Domains ---------------------------------------------------------------------------------- */
 
 /* u and v as given, at all times. Angles up to IMP_TWO_PI_UPPER cover the full turn, so that

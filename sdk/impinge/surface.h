@@ -162,6 +162,10 @@ typedef struct imp_create_error {
      * The host may then share it with later scenes, as long as these files do not change. */
     uint32_t is_repeatable;
     uint32_t reserved; /* 0 */
+    /* Asked now and then by a create that reads or makes much: whether it goes on, while it holds
+     * that many bytes. 0: a limit on time or memory was reached; free everything and return
+     * IMP_STATUS_INTERNAL, and the host tells the limit. NULL: no limits. Use imp_goes_on. */
+    int (*goes_on)(struct imp_create_error *why, uint64_t bytes);
 } imp_create_error;
 
 /* --- Regions, rates, models ------------------------------------------------------------------- */
@@ -660,10 +664,11 @@ IMP_LAYOUT(sizeof(double) == 8 && sizeof(void *) == 8 && sizeof(size_t) == 8);
 IMP_LAYOUT(sizeof(imp_parameter) == 72 && offsetof(imp_parameter, kind) == 32);
 IMP_LAYOUT(offsetof(imp_parameter, extent) == 44 && offsetof(imp_parameter, min) == 56);
 IMP_LAYOUT(sizeof(imp_value) == 48 && offsetof(imp_value, number) == 32);
-IMP_LAYOUT(sizeof(imp_create_error) == 520 && offsetof(imp_create_error, text) == 16);
+IMP_LAYOUT(sizeof(imp_create_error) == 528 && offsetof(imp_create_error, text) == 16);
 IMP_LAYOUT(offsetof(imp_create_error, note_count) == 256 &&
            offsetof(imp_create_error, note) == 268);
-IMP_LAYOUT(offsetof(imp_create_error, is_repeatable) == 512);
+IMP_LAYOUT(offsetof(imp_create_error, is_repeatable) == 512 &&
+           offsetof(imp_create_error, goes_on) == 520);
 IMP_LAYOUT(sizeof(imp_region) == 96 && offsetof(imp_region, c) == 48);
 IMP_LAYOUT(sizeof(imp_box4) == 64);
 IMP_LAYOUT(sizeof(imp_rate_matrix) == 72 && sizeof(imp_map_rates) == 96);

@@ -175,6 +175,75 @@ END
     [ "$(bytes small.obj --isolate all)" -gt "$(bytes small.obj)" ]
     run -0 "$IMPINGE" pair 'mesh file=small.obj' 'sphere center=0,0,3' --max-bytes 500K --json
     json '.verdict == "clear"'
-    run -3 "$IMPINGE" pair 'mesh file=large.obj' 'sphere center=0,0,3' --max-bytes 500K --json
-    json '.reason == "max-bytes"'
+    run -3 --separate-stderr "$IMPINGE" pair 'mesh file=large.obj' 'sphere center=0,0,3' \
+        --max-bytes 500K --json
+    json '.error | contains("max_bytes is not enough to read this")'
+}
+
+# A scene of that mesh and a ball, on one line.
+mesh_scene() {
+    printf '{%s"bodies": [{"surfaces": [{"type": "mesh", "file": "%s"}]},' "${2:-}" "$1"
+    printf ' {"surfaces": [{"type": "sphere", "center": [0, 0, 9]}]}]}\n'
+}
+
+# A file of N points and one face.
+points() {
+    awk -v n="$1" 'BEGIN { for (k = 0; k < n; ++k) printf "v %d %d 1\n", k, k % 2; print "f 1 2 3" }'
+}
+
+@test "a mesh that --max-bytes has no room for is refused from its length, in every verb" {
+    truncate -s 900M long.stl # of zeros, which the disk does not hold
+    mesh_scene long.stl >scene.json
+    local verb
+    for verb in 'solve' 'clearance' 'view -o x.svg' 'simulate -o x.json'; do
+        # shellcheck disable=SC2086 # words of the command
+        run -3 --separate-stderr timeout 20 "$IMPINGE" $verb scene.json --max-bytes 50M --json
+        json '.error | contains("scene.json: /bodies/0/surfaces/0: max_bytes is not enough")'
+    done
+    [ ! -e x.svg ] && [ ! -e x.json ]
+    { mesh_scene long.stl '"id": 1, ' && scene '"id": 2,'; } >scenes.jsonl
+    run -3 --separate-stderr timeout 20 "$IMPINGE" batch scenes.jsonl --max-bytes 50M
+    jq -es '.[0].id == 1 and (.[0].error | contains("line 1: /bodies/0/surfaces/0: max_bytes"))' \
+        <<<"$output"
+    jq -es '.[1].verdict == "contact"' <<<"$output"
+}
+
+@test "a mesh that grows beyond --max-bytes while it is read ends there, isolated or not" {
+    points 50000 >many.obj # 590 KB in the file, 1.2 MB of points
+    run -3 --separate-stderr "$IMPINGE" pair 'mesh file=many.obj' sphere --max-bytes 1M --json
+    json '.error | contains("max_bytes is not enough to read this")'
+    run -3 --separate-stderr "$IMPINGE" pair 'mesh file=many.obj' sphere --max-bytes 1M --json \
+        --isolate all
+    json '.error | contains("max_bytes is not enough to read this")'
+    run -0 "$IMPINGE" pair 'mesh file=many.obj' 'sphere center=0,0,-3' --max-bytes 3M --json
+}
+
+@test "reading a mesh ends with --max-seconds, and costs a line of a batch, not the others" {
+    points 100000 >part.obj
+    for _ in {1..25}; do cat part.obj; done >long.obj # 0.3 s; the limit is 0.1 s here
+    { mesh_scene long.obj '"id": 1, ' && scene '"id": 2,'; } >scenes.jsonl
+    run -3 --separate-stderr "$IMPINGE" batch scenes.jsonl --max-seconds 0.001
+    jq -es '.[0].id == 1 and (.[0].error | contains("max_seconds is not enough to read this"))' \
+        <<<"$output"
+    jq -es '.[1].id == 2 and .[1].verdict != null' <<<"$output"
+    run -3 --separate-stderr "$IMPINGE" pair 'mesh file=long.obj' sphere --max-seconds 0.001 \
+        --isolate all --json
+    json '.error | contains("max_seconds is not enough to read this")'
+}
+
+@test "the text of a scene counts against --max-bytes, and what is parsed of it" {
+    {
+        printf '{"bodies": [{"surfaces": [{"type": "mesh", "faces": [[0, 1, 2]], "points": [[0, 0, 0]'
+        printf ',[%d,1,0]' {1..20000}
+        printf ']}]}, {"surfaces": [{"type": "sphere", "center": [0, 0, 9]}]}]}'
+    } >scene.json
+    local verb
+    for verb in 'solve' 'clearance' 'view -o x.svg' 'simulate -o x.json' 'batch'; do
+        # shellcheck disable=SC2086 # words of the command
+        run -3 --separate-stderr "$IMPINGE" $verb scene.json --max-bytes 2M
+        [[ $output$stderr == *'is not enough to read this'* ]]
+    done
+    run -0 "$IMPINGE" solve scene.json --max-bytes 20M
+    run -4 --separate-stderr "$IMPINGE" solve - --max-bytes 100K <scene.json
+    [[ $stderr == *'standard input: it is longer than 102400 bytes' ]]
 }

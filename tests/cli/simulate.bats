@@ -220,7 +220,9 @@ oblique() {
     json '.reason == "max-seconds" and .stats.searches == 0'
     has_sanitizers || jq -en --argjson seconds "$seconds" '$seconds < 4'
     jq -c 'del(.ignore)' many.json >all.json
-    run -3 "$IMPINGE" simulate all.json -o out.json --json --max-bytes 10M
+    run -3 --separate-stderr "$IMPINGE" simulate all.json -o out.json --json --max-bytes 10M
+    json '.error | contains("--max-bytes 10485760 is not enough to read this")'
+    run -3 "$IMPINGE" simulate all.json -o out.json --json --max-bytes 150M
     json '.reason == "max-bytes" and .stats.searches == 0'
 }
 

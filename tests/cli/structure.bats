@@ -20,7 +20,7 @@ copy_sources() {
 # plugin's code, or do so through another public function only, stand in the list.
 unguarded_functions() { # FOLDER
     local plain=" imp_version imp_code_text imp_call_in_progress imp_registry_new
-        imp_registry_open imp_registry_free imp_registry_isolate imp_registry_type
+        imp_registry_open imp_registry_free imp_registry_limit_reading imp_registry_isolate imp_registry_type
         imp_registry_refusal imp_registry_warning imp_registry_fault imp_call_of_thread imp_call_read
         imp_instance_free imp_scene_from_file
         imp_scene_free imp_scene_remark imp_scene_body_count imp_scene_body_name imp_scene_surface_count

@@ -48,6 +48,7 @@ START_TEST(registries_take_no_missing_object)
     ck_assert(!imp_plugin_examine(NULL, NULL, NULL));
     ck_assert_ptr_null(imp_registry_from_file(NULL));
     expect_usage(imp_registry_isolate(NULL, NULL, &error), "imp_registry_isolate");
+    expect_usage(imp_registry_limit_reading(NULL, 1, 1, &error), "imp_registry_limit_reading");
     expect_usage(imp_instance_from_text(NULL, IMP_TYPE_SURFACE, "sphere", &instance, &error),
                  "imp_instance_from_text");
     expect_nothing(imp_stage_to_json(NULL, IMP_TYPE_SURFACE, "sphere", &error),

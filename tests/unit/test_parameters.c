@@ -342,7 +342,7 @@ END_TEST
 
 START_TEST(every_code_has_its_phrase)
 {
-    for (int code = IMP_SUCCESS; code <= IMP_ERROR_MEMORY; ++code) {
+    for (int code = IMP_SUCCESS; code <= IMP_ERROR_LIMIT; ++code) {
         ck_assert_str_ne(imp_code_text((imp_code)code), "");
         ck_assert_str_ne(imp_code_text((imp_code)code), imp_code_text((imp_code)99));
     }

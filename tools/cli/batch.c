@@ -11,6 +11,7 @@
 #include "tools/cli/output.h"
 #include "tools/cli/progress.h"
 #include "tools/cli/query.h"
+#include "tools/cli/reading_limit.h"
 #include "tools/cli/result.h"
 #include "tools/cli/survey.h"
 #include "tools/cli/verbs.h"
@@ -67,7 +68,9 @@ static json_t *solve_line(const batch *b, batch_item *item)
     json_t *answer = NULL;
     imp_scene *scene = NULL;
     if (asprintf(&name, "%s, line %zu", b->name, item->line) >= 0) {
+        reading_limit_begin(b->args, name);
         scene = imp_scene_from_json(b->registry, item->text.text, item->text.length, name, &error);
+        reading_limit_end();
         free(name);
     }
     const bool is_range = imp_scene_parameter_count(scene) > 0;
@@ -85,7 +88,9 @@ static json_t *solve_line(const batch *b, batch_item *item)
 static void answer_line(const batch *b, batch_item *item)
 {
     json_t *rest = solve_line(b, item);
-    json_t *id = item->failed ? batch_line_id(&item->text) : batch_scene_id(&item->text);
+    /* A line that is no JSON has no id, and one beyond a limit is not parsed. */
+    const bool is_json = !item->failed || item->status == EXIT_UNDECIDED;
+    json_t *id = is_json ? batch_scene_id(&item->text) : batch_line_id(&item->text);
     item->answer = answer_of(id, rest);
 }
 
@@ -141,6 +146,7 @@ bool batch_next_line(batch *b, batch_item *item)
 {
     bool ok = true, wanted = false;
     while (ok && !wanted && !interrupt_came()) {
+        item->text.most = reading_limit_most(b->args);
         const bool read = input_read_line(b->file, b->name, b->args->verb->name, &item->text);
         if (!read && !interrupt_came()) b->input_failed = true;
         if (read && item->text.length == 0) b->input_failed = !batch_resume_match_end(&b->resume);

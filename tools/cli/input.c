@@ -45,26 +45,35 @@ static bool grow(input_text *t)
     return true;
 }
 
+static size_t most_bytes(const input_text *t)
+{
+    return t->most > 0 && t->most < INPUT_MAX ? t->most : INPUT_MAX;
+}
+
 /* Up to `end`, or the end of the file; false: errno says why not. */
 static bool take(FILE *file, int end, input_text *t)
 {
-    for (t->length = 0; t->length < INPUT_MAX;) {
+    const size_t most = most_bytes(t);
+    for (t->length = 0;;) {
         if (t->length == t->size && !grow(t)) return false;
         errno = 0;
         const int c = getc_unlocked(file);
         if (c == EOF) return !ferror(file);
+        if (t->length == most) break;
         t->text[t->length++] = (char)c;
         if (c == end) return true;
     }
     errno = EFBIG;
+    t->is_too_long = true;
     return false;
 }
 
-static bool judge(bool taken, const char *name, const char *what, const char *verb)
+static bool judge(bool taken, const input_text *t, const char *name, const char *what,
+                  const char *verb)
 {
     if (taken || errno == EINTR) return taken;
     if (errno == EFBIG)
-        complain(EXIT_DATA, verb, "%s: %s longer than %zu bytes", name, what, INPUT_MAX);
+        complain(EXIT_DATA, verb, "%s: %s longer than %zu bytes", name, what, most_bytes(t));
     else
         complain(EXIT_DATA, verb, "%s: %s", name, system_error_text(errno));
     return false;
@@ -72,12 +81,12 @@ static bool judge(bool taken, const char *name, const char *what, const char *ve
 
 bool input_read(FILE *file, const char *name, const char *verb, input_text *text)
 {
-    return judge(take(file, EOF, text), name, "it is", verb);
+    return judge(take(file, EOF, text), text, name, "it is", verb);
 }
 
 bool input_read_line(FILE *file, const char *name, const char *verb, input_text *line)
 {
-    return judge(take(file, '\n', line), name, "it has a line", verb);
+    return judge(take(file, '\n', line), line, name, "it has a line", verb);
 }
 
 bool input_is_file(const char *path)

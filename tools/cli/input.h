@@ -20,9 +20,11 @@ void input_close(FILE *file);
 typedef struct input_text {
     char *text;
     size_t length, size;
+    size_t most;      /* bytes it may have, at most 1 GiB; 0: 1 GiB */
+    bool is_too_long; /* it has more, and cannot be read */
 } input_text;
 
-/* Read the rest of the file, or its next line with its line end, into `text`; at most 1 GiB. Length
+/* Read the rest of the file, or its next line with its line end, into `text`. Length
  * 0: the end of the file. False: it cannot be read (they complain), or a signal came (they do
  * not). */
 bool input_read(FILE *file, const char *name, const char *verb, input_text *text);

@@ -21,6 +21,8 @@ exit_status status_of_code(imp_code code)
     case IMP_ERROR_FILE:
     case IMP_ERROR_MEMORY:
         return EXIT_DATA;
+    case IMP_ERROR_LIMIT:
+        return EXIT_UNDECIDED;
     }
     return EXIT_DATA;
 }

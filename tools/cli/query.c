@@ -57,10 +57,13 @@ imp_registry *query_registry(const arguments *args)
         query_registry_first(path != NULL ? path->text : NULL, flags, args->verb->name);
     const option_value *isolate = arguments_option(args, "isolate");
     if (registry != NULL) warn(registry, args->verb->name);
-    if (registry == NULL || isolate == NULL) return registry;
+    if (registry == NULL) return NULL;
     imp_error error = {0};
-    const char *names = strcmp(isolate->text, "all") == 0 ? NULL : isolate->text;
-    if (imp_registry_isolate(registry, names, &error) == IMP_SUCCESS) return registry;
+    imp_code code = reading_limit_share(args, registry, &error);
+    if (code == IMP_SUCCESS && isolate != NULL)
+        code = imp_registry_isolate(
+            registry, strcmp(isolate->text, "all") == 0 ? NULL : isolate->text, &error);
+    if (code == IMP_SUCCESS) return registry;
     complain_of(&error, args->verb->name);
     imp_registry_free(registry);
     return NULL;
@@ -210,7 +213,7 @@ static imp_scene *scene_of_text(imp_registry *registry, char *text, size_t lengt
 static imp_scene *scene_of_file(imp_registry *registry, const char *path, const arguments *args,
                                 bool *complained, imp_error *error)
 {
-    input_text t = {0};
+    input_text t = {.most = reading_limit_most(args)};
     const char *name = input_name(path);
     FILE *file = input_open(path, args->verb->name);
     *complained = file == NULL;
@@ -255,7 +258,7 @@ static imp_scene *read_scene(imp_registry *registry, const arguments *args, bool
 imp_scene *query_scene(imp_registry *registry, const arguments *args, bool *complained,
                        imp_error *error)
 {
-    reading_limit_begin(args);
+    reading_limit_begin(args, NULL);
     imp_scene *scene = read_scene(registry, args, complained, error);
     reading_limit_end();
     query_warn(scene, args);
@@ -265,7 +268,7 @@ imp_scene *query_scene(imp_registry *registry, const arguments *args, bool *comp
 exit_status query_answer_file(imp_registry *registry, const char *path, const arguments *args)
 {
     imp_error error = {0};
-    reading_limit_begin(args);
+    reading_limit_begin(args, NULL);
     imp_scene *scene = imp_scene_from_file(registry, path, &error);
     reading_limit_end();
     return query_answer(scene, &error, args);

@@ -9,6 +9,7 @@
 #include "tools/cli/interrupt.h"
 #include "tools/cli/output.h"
 #include "tools/cli/query.h"
+#include "tools/cli/reading_limit.h"
 #include "tools/cli/verbs.h"
 
 /* Solves the example of each surface type against that of each other, and under each map. */
@@ -78,7 +79,9 @@ static void solve(matrix *m, const char *a, const char *b, tally *t)
 {
     imp_error error = {0};
     imp_result result;
+    reading_limit_begin(m->args, NULL);
     imp_scene *scene = imp_scene_from_pair(m->registry, a, b, &error);
+    reading_limit_end();
     const bool good =
         scene != NULL && query_solve(scene, m->args, &result, NULL, &error) == IMP_SUCCESS;
     if (good) {

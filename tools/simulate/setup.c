@@ -87,11 +87,13 @@ static exit_status read_json(setup *s, const input_text *text)
 
 static exit_status read_text(setup *s, const arguments *args)
 {
-    input_text text = {0};
+    input_text text = {.most = reading_limit_most(args)};
     FILE *file = input_open(args->operands[0], speaker);
     if (file == NULL) return EXIT_DATA;
     exit_status status = EXIT_DATA;
-    if (input_read(file, s->name, speaker, &text)) status = read_json(s, &text);
+    if (input_read(file, s->name, speaker, &text)) status = reading_limit_check(args, &text, 3);
+    if (text.is_too_long) status = EXIT_UNDECIDED;
+    if (status == EXIT_ANSWERED) status = read_json(s, &text);
     input_close(file);
     free(text.text);
     return status;
@@ -121,7 +123,7 @@ exit_status setup_read(setup *s, const arguments *args)
     s->limits = limits_begin(arguments_number(args, "max-seconds", 0), 0);
     s->registry = query_registry(args);
     if (s->registry == NULL) return EXIT_DATA;
-    reading_limit_begin(args);
+    reading_limit_begin(args, NULL);
     exit_status status = read_text(s, args);
     reading_limit_end();
     if (status != EXIT_ANSWERED) return status;

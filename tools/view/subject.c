@@ -158,12 +158,14 @@ static exit_status read_text(subject *s, const arguments *args, const input_text
 
 static exit_status read_file(subject *s, const arguments *args)
 {
-    input_text t = {0};
+    input_text t = {.most = reading_limit_most(args)};
     FILE *file = input_open(args->operands[0], args->verb->name);
     if (file == NULL) return EXIT_DATA;
     exit_status status = EXIT_DATA;
     if (input_read(file, input_name(args->operands[0]), args->verb->name, &t))
-        status = read_text(s, args, &t);
+        status = reading_limit_check(args, &t, 2);
+    if (t.is_too_long) status = EXIT_UNDECIDED;
+    if (status == EXIT_ANSWERED) status = read_text(s, args, &t);
     input_close(file);
     free(t.text);
     return status;
@@ -185,7 +187,7 @@ exit_status subject_read(subject *s, const arguments *args)
     if (status != EXIT_ANSWERED) return status;
     s->registry = query_registry(args);
     if (s->registry == NULL) return EXIT_DATA;
-    reading_limit_begin(args);
+    reading_limit_begin(args, NULL);
     status = args->operand_count == 1 ? read_file(s, args) : read_pair(s, args);
     reading_limit_end();
     /* The text may be a result, which needs no search. */
@@ -199,7 +201,9 @@ exit_status subject_of_file(subject *s, const char *path, const arguments *args)
     begin(s, args);
     s->registry = query_registry(args);
     if (s->registry == NULL) return EXIT_DATA;
+    reading_limit_begin(args, NULL);
     s->scene = imp_scene_from_file(s->registry, path, &error);
+    reading_limit_end();
     set_title(s, path, NULL);
     return s->scene != NULL ? solve(s, args) : complain_of(&error, args->verb->name);
 }
