@@ -84,7 +84,7 @@ static imp_code answer_all(stream *s, size_t threads, imp_error *error)
     batch_item *item;
     for (size_t k = 0; k < s->of->count && (item = ordered_pool_next(pool)) != NULL; ++k) {
         char *text = s->of->scenes[k].a;
-        *item = (batch_item){.text = {text, strlen(text), 0}, .line = k + 1};
+        *item = (batch_item){.text = {.text = text, .length = strlen(text)}, .line = k + 1};
         ordered_pool_submit(pool);
     }
     ordered_pool_join(pool);
