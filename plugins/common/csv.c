@@ -222,12 +222,16 @@ static imp_status csv_check_width(const csv_reader *r, size_t width)
                       separators_told(r->separator));
 }
 
-/* Reserves memory for one more row. False: no memory. */
-static bool csv_reserve(csv_numbers *to)
+/* Reserves memory for one more row, and asks every 1024 rows whether reading goes on. False: no
+ * memory, or a limit is reached. */
+static bool csv_reserve(csv_reader *r, csv_numbers *to)
 {
-    if (to->rows < to->capacity) return true;
-    const size_t capacity = 2 * to->capacity + 64;
-    double *grown = realloc(to->number, capacity * to->columns * sizeof *grown);
+    const size_t row = to->columns * sizeof *to->number;
+    const bool is_full = to->rows == to->capacity;
+    const size_t capacity = is_full ? 2 * to->capacity + 64 : to->capacity;
+    if ((is_full || to->rows % 1024 == 0) && !imp_goes_on(r->why, capacity * row)) return false;
+    if (!is_full) return true;
+    double *grown = realloc(to->number, capacity * row);
     if (grown == NULL) return false;
     to->number = grown;
     to->capacity = capacity;
@@ -236,7 +240,7 @@ static bool csv_reserve(csv_numbers *to)
 
 static imp_status csv_read_row(csv_reader *r, csv_numbers *to)
 {
-    if (!csv_reserve(to)) return IMP_STATUS_INTERNAL;
+    if (!csv_reserve(r, to)) return IMP_STATUS_INTERNAL;
     double *row = to->number + to->rows * to->columns, number;
     const char *next = r->text;
     const imp_status status = csv_check_width(r, csv_count(r->text, r->separator));

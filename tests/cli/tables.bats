@@ -105,3 +105,15 @@ refuses() {
         'translate file=table.csv scene_unit=furlong'
     fails 4 "scene_unit: belongs to a file" "$IMPINGE" pair sphere 'sphere ! translate velocity=1,0,0 scene_unit=m'
 }
+
+@test "reading a table ends with --max-seconds and --max-bytes" {
+    printf '%d,0,0,0\n' {1..100000} >part.csv
+    for _ in {1..15}; do cat part.csv; done >table.csv # 0.4 s; the least limit is 0.1 s
+    local limit
+    for limit in 'seconds 0.001' 'bytes 4M'; do
+        # shellcheck disable=SC2086 # words of the command
+        run -3 --separate-stderr "$IMPINGE" pair sphere 'sphere center=9,0,0 ! translate file=table.csv' \
+            --max-$limit --isolate all --json
+        json ".error | contains(\"max_${limit% *} is not enough to read this\")"
+    done
+}
