@@ -33,7 +33,8 @@ core_base = \
     core/base/sized.h \
     core/base/status.c core/base/status.h \
     core/base/text.c core/base/text.h \
-    core/base/unconst.h
+    core/base/unconst.h \
+    core/base/union_find.c core/base/union_find.h
 
 core_surface = \
     core/surface/carried.c core/surface/carried.h \
@@ -216,6 +217,10 @@ core_solver = \
     core/solver/world.c core/solver/world.h
 
 core_survey = \
+    core/survey/box_contact.c \
+    core/survey/box_distance.c \
+    core/survey/box_query.c \
+    core/survey/box_question.h \
     core/survey/box_queue.c core/survey/box_queue.h \
     core/survey/survey.c \
     core/survey/survey_answer.c \

@@ -9,6 +9,7 @@
 #include <string.h>
 
 #include "core/base/status.h"
+#include "core/base/union_find.h"
 #include "core/solid/cell_hash.h"
 
 /* --- Points ----------------------------------------------------------------------------------- */
@@ -33,12 +34,6 @@ static imp_code sample(const patch *p, double t, patch_samples *s, imp_error *er
 
 /* --- Sets ------------------------------------------------------------------------------------- */
 
-static size_t find_root(size_t *up, size_t i)
-{
-    while (up[i] != i) i = up[i] = up[up[i]];
-    return i;
-}
-
 /* A hash table, open addressing, of patches by the cell that a corner of theirs is in. */
 typedef struct cells {
     double (*key)[3];
@@ -47,7 +42,7 @@ typedef struct cells {
 } cells;
 
 /* Joins a patch to the one that was first in its corner's cell. */
-static void enter(cells *c, size_t *up, size_t index, const double key[3])
+static void enter(cells *c, union_find *sets, size_t index, const double key[3])
 {
     size_t slot = cell_hash(key) & (c->slots - 1);
     while (c->patch[slot] != SIZE_MAX && memcmp(c->key[slot], key, sizeof c->key[slot]) != 0)
@@ -57,14 +52,15 @@ static void enter(cells *c, size_t *up, size_t index, const double key[3])
         c->patch[slot] = index;
         return;
     }
-    up[find_root(up, index)] = find_root(up, c->patch[slot]);
+    union_find_join(sets, c->patch[slot], index, 1);
 }
 
 /* Lemma. Points in one cell of the width near / 4 are at most sqrt(3) / 4 near < 0.44 near apart,
  * and a little for the rounding of quotients; the exact points are within near / 8 of each:
  * together less than near. Cells are counted from two origins, so that most points that are the
  * same but for rounding meet in one of them. */
-static void join_corners(cells *c, const components *all, size_t count, double near, size_t *up)
+static void join_corners(cells *c, const components *all, size_t count, double near,
+                         union_find *sets)
 {
     for (int shift = 0; shift < 2; ++shift) {
         memset(c->patch, 0xff, c->slots * sizeof *c->patch);
@@ -75,17 +71,17 @@ static void join_corners(cells *c, const components *all, size_t count, double n
                 if (!(s->off[k] <= near / 8)) continue;
                 for (int j = 0; j < 3; ++j)
                     key[j] = floor(s->x[k].x[j] / (near / 4) + 0.5 * shift) + 0.0;
-                enter(c, up, i, key);
+                enter(c, sets, i, key);
             }
     }
 }
 
-static void number_sets(components *c, size_t count, size_t *up)
+static void number_sets(components *c, size_t count, union_find *sets)
 {
     c->count = 0;
     for (size_t i = 0; i < count; ++i) c->of[i] = SIZE_MAX;
     for (size_t i = 0; i < count; ++i) {
-        const size_t root = find_root(up, i);
+        const size_t root = union_find_root(sets, i, NULL);
         if (c->of[root] == SIZE_MAX) c->of[root] = c->count++;
         c->of[i] = c->of[root];
     }
@@ -101,14 +97,14 @@ static size_t slots_for(size_t count)
 static bool join_all(components *c, size_t count, double near)
 {
     cells table = {.slots = slots_for(count)};
-    size_t *up = malloc((count + 1) * sizeof *up);
+    union_find sets;
+    const bool has_sets = union_find_make(&sets, count);
     table.key = malloc(table.slots * sizeof *table.key);
     table.patch = malloc(table.slots * sizeof *table.patch);
-    const bool done = up != NULL && table.key != NULL && table.patch != NULL;
-    for (size_t i = 0; done && i < count; ++i) up[i] = i;
-    if (done && near > 0) join_corners(&table, c, count, near, up);
-    if (done) number_sets(c, count, up);
-    free(up);
+    const bool done = has_sets && table.key != NULL && table.patch != NULL;
+    if (done && near > 0) join_corners(&table, c, count, near, &sets);
+    if (done) number_sets(c, count, &sets);
+    union_find_clear(&sets);
     free(table.key);
     free(table.patch);
     return done;
@@ -120,7 +116,7 @@ size_t components_bytes(size_t count)
 {
     const cells *table = NULL;
     const components *c = NULL;
-    return count * (sizeof *c->samples + 2 * sizeof *c->of) +
+    return count * (sizeof *c->samples + sizeof *c->of) + union_find_bytes(count) +
            slots_for(count) * (sizeof *table->key + sizeof *table->patch);
 }
 

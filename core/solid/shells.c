@@ -8,49 +8,13 @@
 #include <string.h>
 
 #include "core/base/status.h"
+#include "core/base/union_find.h"
 #include "core/solid/edges.h"
-
-/* --- Sets of patches with signs --------------------------------------------------------------- */
-
-/* Union-find: each patch knows a patch of its set, and whether its orientation is that one's. */
-typedef struct linked {
-    size_t *up;
-    int *sign; /* relative to `up` */
-} linked;
-
-/* Returns the root of a patch's set; *sign: relative to the root. Shortens the path. */
-static size_t find_root(linked *l, size_t i, int *sign)
-{
-    size_t root = i;
-    int whole = 1;
-    for (; l->up[root] != root; root = l->up[root]) whole *= l->sign[root];
-    *sign = whole;
-    while (i != root) {
-        const size_t next = l->up[i];
-        const int part = l->sign[i];
-        l->up[i] = root, l->sign[i] = whole;
-        whole *= part;
-        i = next;
-    }
-    return root;
-}
-
-/* Notes that two patches have orientations whose product is `sign`. False: they are known to have
- * the other. */
-static bool join(linked *l, size_t i, size_t j, int sign)
-{
-    int a, b;
-    const size_t x = find_root(l, i, &a), y = find_root(l, j, &b);
-    if (x == y) return a * b == sign;
-    l->up[y] = x;
-    l->sign[y] = a * b * sign;
-    return true;
-}
 
 /* --- Seams ------------------------------------------------------------------------------------ */
 
 typedef struct joining {
-    linked l;
+    union_find sets; /* of patches, with their orientations for signs */
     const edges *e;
     size_t *partner;
     imp_closure *closure;
@@ -70,7 +34,7 @@ static void note_fault(joining *j, imp_closure_verdict verdict, size_t i, int k)
 /* Edges that run in opposite directions bound patches of the same orientation. */
 static bool join_at_seam(joining *j, size_t i, size_t other, int direction)
 {
-    return join(&j->l, i / 4, other / 4, -direction);
+    return union_find_join(&j->sets, i / 4, other / 4, -direction);
 }
 
 /* Joins the patches of the edges that run along point k of edge i. False: none does. In a body of
@@ -126,13 +90,13 @@ static void join_all(joining *j)
 
 /* Numbers the sets by their first patch, whose sign becomes 1. A root may come after it: it then
  * has its number and sign before its turn. */
-static void number_shells(shells *s, linked *l, size_t count)
+static void number_shells(shells *s, union_find *sets, size_t count)
 {
     s->count = 0;
     for (size_t i = 0; i < count; ++i) s->facing[i].shell = SIZE_MAX;
     for (size_t i = 0; i < count; ++i) {
         int sign;
-        const size_t root = find_root(l, i, &sign);
+        const size_t root = union_find_root(sets, i, &sign);
         imp_facing *first = &s->facing[root];
         if (first->shell == SIZE_MAX) *first = (imp_facing){s->count++, sign};
         if (i != root) s->facing[i] = (imp_facing){first->shell, sign * first->sign};
@@ -145,23 +109,21 @@ static imp_code find_within(shells *s, const patches *p, double slack, const lim
     const size_t n = p->count;
     edges e;
     joining j = {.e = &e, .closure = closure, .watch = watch};
-    j.l = (linked){malloc((n + 1) * sizeof *j.l.up), malloc((n + 1) * sizeof *j.l.sign)};
+    const bool has_sets = union_find_make(&j.sets, n);
     j.partner = malloc((4 * n + 1) * sizeof *j.partner);
     closure->verdict = IMP_CLOSURE_CLOSED;
     imp_code code = edges_read(&e, p, slack, error);
-    if (j.l.up == NULL || j.l.sign == NULL || j.partner == NULL) code = error_set_memory(error);
+    if (!has_sets || j.partner == NULL) code = error_set_memory(error);
     if (code == IMP_SUCCESS && !e.bounded)
         closure->verdict = IMP_CLOSURE_UNBOUNDED;
     else if (code == IMP_SUCCESS && !edges_match(&e, j.partner))
         code = error_set_memory(error);
-    for (size_t i = 0; code == IMP_SUCCESS && i < n; ++i) j.l.up[i] = i, j.l.sign[i] = 1;
     if (code == IMP_SUCCESS && e.bounded) join_all(&j);
-    if (code == IMP_SUCCESS) number_shells(s, &j.l, n);
+    if (code == IMP_SUCCESS) number_shells(s, &j.sets, n);
     s->slack = slack;
     s->is_doubtful = j.shares_edges;
     edges_free(&e);
-    free(j.l.up);
-    free(j.l.sign);
+    union_find_clear(&j.sets);
     free(j.partner);
     return code;
 }
@@ -170,8 +132,8 @@ size_t solid_shells_bytes(size_t count)
 {
     const joining *j = NULL;
     const shells *s = NULL;
-    return edges_bytes(count) + count * (sizeof *j->l.up + sizeof *j->l.sign +
-                                         4 * sizeof *j->partner + sizeof *s->facing);
+    return edges_bytes(count) + union_find_bytes(count) +
+           count * (4 * sizeof *j->partner + sizeof *s->facing);
 }
 
 #define FINE_SLACK 1e-9 /* part of the body's size within which points are the same */

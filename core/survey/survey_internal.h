@@ -37,9 +37,9 @@
  * what follows it follows time, so that one query covers its whole range, by bounds that are better
  * than those of the lemma; the shift is that of the others. A contact is one at all times then.
  *
- * survey.c steps, survey_box.c decides one box, survey_measure.c bounds how its
- * parameters shift bodies, survey_pairs.c finds which bodies which parameters
- * move, survey_mark.c tells boxes, survey_state.c saves and loads, survey_answer.c reads. */
+ * survey.c steps, survey_box.c and box_*.c decide one box (box_question.h), survey_measure.c bounds
+ * how its parameters shift bodies, survey_pairs.c finds which bodies which parameters move,
+ * survey_mark.c tells boxes, survey_state.c saves and loads, survey_answer.c reads. */
 
 #define SURVEY_ALL_BODIES SIZE_MAX
 

@@ -1,0 +1,148 @@
+/* SPDX-FileCopyrightText: The Impinge authors
+ * SPDX-License-Identifier: Apache-2.0 */
+#include <config.h>
+
+#include "core/base/rounding.h"
+#include "core/survey/box_question.h"
+
+/* Notes that nothing comes near in the box before t, of the parameter that is swept. */
+static void prove_swept(imp_survey *s, survey_box *box, double t)
+{
+    double *range = box->range + 2 * s->pairs[box->pair].swept;
+    const double lo = range[0], hi = range[1];
+    const double part = t < hi ? box->share * ((t - lo) / (hi - lo)) : box->share;
+    s->proved += part;
+    box->share -= part;
+    range[1] = t;
+    survey_tell(s, box, s->options.t_start, s->options.t_end, IMP_VERDICT_CLEAR, s->gamma_clear);
+    range[0] = t, range[1] = hi;
+}
+
+/* Notes that nothing comes near in the box before a time of its queries. */
+static void prove_until(imp_survey *s, survey_box *box, double t, bool is_clear)
+{
+    const double all = s->options.t_end - s->options.t_start;
+    if (!(t > box_times(s, box).start) && !is_clear) return;
+    if (box_is_swept(&s->pairs[box->pair])) {
+        prove_swept(s, box, t);
+        return;
+    }
+    s->proved += all > 0 ? box->share * ((t - box->key) / all) : box->share;
+    survey_tell(s, box, box->key, t, IMP_VERDICT_CLEAR, s->gamma_clear);
+    box->key = t;
+}
+
+static void note_contact(imp_survey *s, const survey_box *box, const imp_result *found)
+{
+    const double t = box_is_swept(&s->pairs[box->pair]) ? s->options.t_start : found->t;
+    if (!(t < s->best.t)) return;
+    s->best.t = t;
+    s->best.contact = *found;
+    box_keep_values(s, box, &s->best.contact.t);
+    box_name_side(&s->pairs[box->pair], &s->best.contact.a, &s->best.contact.b);
+    if (s->how.any) s->reason = IMP_REASON_NONE;
+}
+
+/* Asks without room for the shift: a contact bounds the earliest from above. Where the middle lies
+ * on the edge of the values that touch, gaps of about gamma last along whole edges, and such a
+ * search would take a thousand times the pairs of the one with room, which took `pairs`; beside the
+ * contact there are others that are easier to find, and so it is given up. */
+enum { OWN_PAIRS_LEAST = 1024, OWN_PAIRS_TIMES = 8 };
+
+static imp_code ask_own(imp_survey *s, const survey_box *box, imp_scene *scene, uint64_t pairs,
+                        box_rest *rest, imp_error *error)
+{
+    const double own[2] = {s->gamma, s->gamma_clear};
+    const uint64_t limit = OWN_PAIRS_LEAST + OWN_PAIRS_TIMES * pairs;
+    imp_result found;
+    const imp_code code =
+        box_run_contact(s, scene, box_times(s, box), own, limit, NULL, &found, error);
+    if (code != IMP_SUCCESS) return code;
+    if (found.verdict == IMP_VERDICT_CONTACT) note_contact(s, box, &found);
+    if (found.verdict != IMP_VERDICT_UNDECIDED) return IMP_SUCCESS;
+    if (found.reason == IMP_REASON_PAIRS && found.stats.pairs >= limit) return IMP_SUCCESS;
+    if (box_must_end(s, found.reason)) *rest = BOX_WAITING;
+    return IMP_SUCCESS;
+}
+
+/* Tells the sink about the times after a contact that is known: nobody asks about them. */
+static void tell_later(imp_survey *s, const survey_box *box)
+{
+    if (box_is_swept(&s->pairs[box->pair]) || !(box->key < s->options.t_end)) return;
+    survey_tell(s, box, box->key, s->options.t_end, IMP_VERDICT_UNDECIDED, 0);
+}
+
+/* Asks the query with room for the shift; what is excluded along the way the values move the bodies
+ * counts, too, unless a contact is to be one of the scene (is_fine). */
+static imp_code run_box(imp_survey *s, const survey_box *box, imp_scene *scene,
+                        const survey_view *view, const double gamma[2], bool is_fine,
+                        imp_result *found, imp_error *error)
+{
+    const query_times times = box_times(s, box);
+    query_spread spread;
+    if (is_fine || box_is_rest(&s->pairs[box->pair]))
+        return box_run_contact(s, scene, times, gamma, 0, NULL, found, error);
+    imp_code code = survey_spread_make(s, box, view, &spread, error);
+    if (code == IMP_SUCCESS)
+        code = box_run_contact(s, scene, times, gamma, 0, spread.is_known ? &spread : NULL, found,
+                               error);
+    survey_spread_clear(&spread);
+    return code;
+}
+
+/* Asks the query with room for the shift, then, where a contact is too coarse to be one of the
+ * scene, the query without. */
+static imp_code ask_queries(imp_survey *s, survey_box *box, imp_scene *scene,
+                            const survey_view *view, box_rest *rest, imp_error *error)
+{
+    const double total = view->total;
+    const double between = s->gamma - s->gamma_clear;
+    const bool is_fine = total <= 0.5 * between;
+    const double clear = total > 0 ? sum_upper(s->gamma_clear, total) : s->gamma_clear;
+    const double coarse[2] = {is_fine ? s->gamma : clear + 0.25 * (total + between), clear};
+    imp_result found;
+    imp_code code = run_box(s, box, scene, view, coarse, is_fine, &found, error);
+    if (code != IMP_SUCCESS) return code;
+    prove_until(s, box, found.t_lower, found.verdict == IMP_VERDICT_CLEAR);
+    if (found.verdict == IMP_VERDICT_CLEAR) {
+        tell_later(s, box);
+        return *rest = BOX_DONE, IMP_SUCCESS;
+    }
+    if (found.verdict == IMP_VERDICT_UNDECIDED) {
+        const bool is_stuck = is_fine && found.reason == IMP_REASON_RESOLUTION;
+        if (is_stuck) s->reason = IMP_REASON_RESOLUTION;
+        if (is_stuck || box_must_end(s, found.reason)) return *rest = BOX_WAITING, IMP_SUCCESS;
+    }
+    if (!is_fine) return ask_own(s, box, scene, found.stats.pairs, rest, error);
+    if (found.verdict == IMP_VERDICT_CONTACT) note_contact(s, box, &found);
+    return IMP_SUCCESS;
+}
+
+imp_code box_ask_contact(imp_survey *s, survey_box *box, box_rest *rest, imp_error *error)
+{
+    survey_view view;
+    imp_scene *scene;
+    bool is_split;
+    imp_code code = box_measure(s, box, &view, error);
+    if (code != IMP_SUCCESS) return code;
+    if (view.apart > s->gamma_clear) {
+        prove_until(s, box, box_times(s, box).end, true);
+        tell_later(s, box);
+        return *rest = BOX_DONE, IMP_SUCCESS;
+    }
+    if (view.total < INFINITY) {
+        code = box_scene(s, box, &scene, error);
+        if (code != IMP_SUCCESS) return code;
+        code = ask_queries(s, box, scene, &view, rest, error);
+        imp_scene_free(scene);
+        if (code != IMP_SUCCESS || *rest != BOX_OPEN) return code;
+    }
+    if (s->best.t <= box->key) {
+        survey_tell(s, box, box->key, s->options.t_end, IMP_VERDICT_CONTACT, 0);
+        return *rest = BOX_DONE, IMP_SUCCESS;
+    }
+    code = box_split(s, box, &view, &is_split, error);
+    *rest = is_split ? BOX_DONE : BOX_WAITING;
+    if (!is_split) s->reason = IMP_REASON_RESOLUTION;
+    return code;
+}

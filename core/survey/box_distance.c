@@ -1,0 +1,77 @@
+/* SPDX-FileCopyrightText: The Impinge authors
+ * SPDX-License-Identifier: Apache-2.0 */
+#include <config.h>
+
+#include "core/base/rounding.h"
+#include "core/survey/box_question.h"
+
+double survey_distance_enough(const imp_survey *s)
+{
+    const double upper = s->best.distance, required = s->asked.required;
+    if (!(upper < INFINITY)) return INFINITY;
+    const double narrow = padded_lower(upper * (1 - s->asked.tolerance), 4);
+    const double kept = tolerances_nearly(required);
+    return upper > required && kept > narrow && kept <= upper ? kept : narrow;
+}
+
+static void note_nearest(imp_survey *s, const survey_box *box, const imp_clearance *found)
+{
+    if (!found->has_witness || !(found->upper < s->best.distance)) return;
+    s->best.distance = found->upper;
+    s->best.nearest = *found;
+    box_keep_values(s, box, &s->best.nearest.t);
+    box_name_side(&s->pairs[box->pair], &s->best.nearest.a, &s->best.nearest.b);
+}
+
+/* Closes a box, whose distance is enough or cannot be known better. */
+static void settle(imp_survey *s, const survey_box *box)
+{
+    if (box->key < s->settled) s->settled = box->key;
+    s->proved += box->share;
+    survey_tell(s, box, s->options.t_start, s->options.t_end, IMP_VERDICT_CLEAR, box->key);
+}
+
+/* Returns how narrow the bracket at the middle is to be: the shift blurs it anyhow. */
+static double tolerance_of(const imp_survey *s, double total)
+{
+    const double own = 0.5 * s->asked.tolerance, least = own > 1e-9 ? own : 1e-9, most = 0.25;
+    if (!(total > 0)) return least;
+    const double wanted =
+        s->best.distance < INFINITY ? 0.5 * total / (s->best.distance + total) : most;
+    return wanted > least ? wanted : least;
+}
+
+static imp_code measure_distance(imp_survey *s, survey_box *box, double total, box_rest *rest,
+                                 imp_error *error)
+{
+    const double enough = survey_distance_enough(s);
+    const double within = enough < INFINITY ? sum_upper(enough, total) : 0;
+    imp_scene *scene;
+    imp_clearance found;
+    imp_code code = box_scene(s, box, &scene, error);
+    if (code != IMP_SUCCESS) return code;
+    code = box_run_distance(s, scene, box_times(s, box), within, tolerance_of(s, total), &found,
+                            error);
+    imp_scene_free(scene);
+    if (code != IMP_SUCCESS) return code;
+    const double lower = total > 0 ? difference_lower(found.lower, total) : found.lower;
+    if (lower > box->key) box->key = lower;
+    note_nearest(s, box, &found);
+    if (box_must_end(s, found.reason)) *rest = BOX_WAITING;
+    return IMP_SUCCESS;
+}
+
+imp_code box_ask_distance(imp_survey *s, survey_box *box, box_rest *rest, imp_error *error)
+{
+    survey_view view;
+    bool is_split = false;
+    imp_code code = box_measure(s, box, &view, error);
+    if (code != IMP_SUCCESS) return code;
+    if (view.apart > box->key) box->key = view.apart;
+    if (view.total < INFINITY && !(box->key >= survey_distance_enough(s)))
+        code = measure_distance(s, box, view.total, rest, error);
+    if (code != IMP_SUCCESS || *rest != BOX_OPEN) return code;
+    if (!(box->key >= survey_distance_enough(s))) code = box_split(s, box, &view, &is_split, error);
+    if (code == IMP_SUCCESS && !is_split) settle(s, box);
+    return code;
+}

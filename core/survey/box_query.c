@@ -1,0 +1,162 @@
+/* SPDX-FileCopyrightText: The Impinge authors
+ * SPDX-License-Identifier: Apache-2.0 */
+#include <config.h>
+
+#include <stdlib.h>
+
+#include "core/base/status.h"
+#include "core/common/clock.h"
+#include "core/scene/posed_scene.h"
+#include "core/survey/box_question.h"
+
+/* The pairs that parameters move are searched on their own. */
+static imp_code ignore_moved(const imp_survey *s, imp_scene *scene)
+{
+    imp_code code = scene_copy_relations(s->scene, scene);
+    for (size_t k = 0; k < s->pair_count && code == IMP_SUCCESS; ++k) {
+        const size_t *body = s->pairs[k].body;
+        if (!box_is_rest(&s->pairs[k]))
+            code = scene_ignore_members(scene, (scene_members){false, body[0]},
+                                        (scene_members){false, body[1]});
+    }
+    return code;
+}
+
+imp_code box_scene(imp_survey *s, const survey_box *box, imp_scene **made, imp_error *error)
+{
+    const survey_pair *pair = &s->pairs[box->pair];
+    const size_t count = scene_body_count(s->scene);
+    size_t *all = NULL;
+    imp_code code;
+    if (!box_is_rest(pair)) {
+        code = posed_scene_of_bodies(s->scene, s->at, pair->body, 2, pair->swept, made);
+        return code == IMP_SUCCESS ? code : error_set_memory(error);
+    }
+    all = malloc((count + 1) * sizeof *all);
+    if (all == NULL) return error_set_memory(error);
+    for (size_t b = 0; b < count; ++b) all[b] = b;
+    code = posed_scene_of_bodies(s->scene, s->at, all, count, SIZE_MAX, made);
+    free(all);
+    if (code == IMP_SUCCESS && ignore_moved(s, *made) != IMP_SUCCESS) {
+        imp_scene_free(*made);
+        code = IMP_ERROR_MEMORY;
+    }
+    return code == IMP_SUCCESS ? code : error_set_memory(error);
+}
+
+double survey_seconds(const imp_survey *s)
+{
+    return s->step_from[0] + (clock_seconds() - s->step_from[1]);
+}
+
+#define PROGRESS_EVERY 0.1 /* seconds between reports */
+
+/* Adds the survey's own to what a query reports. */
+static bool report(void *context, const imp_progress *of_query)
+{
+    imp_survey *s = context;
+    const survey_box *first = box_queue_first(&s->queue);
+    imp_progress all = *of_query;
+    if (atomic_load(&s->cancelled)) return false;
+    all.pairs += s->stats.pairs;
+    all.heap += s->queue.count;
+    all.seconds = survey_seconds(s);
+    if (s->is_distance) {
+        all.lower = first != NULL && first->key < s->settled ? first->key : s->settled;
+        all.upper = s->best.distance;
+    } else {
+        all.t_lower = first != NULL && first->key < s->key_asked ? first->key : s->key_asked;
+    }
+    if (s->options.progress == NULL || all.seconds < s->next_report) return true;
+    s->next_report = all.seconds + PROGRESS_EVERY;
+    return s->options.progress(s->options.progress_context, &all);
+}
+
+/* `pairs` is a limit of the query's own; 0: none. */
+static imp_options options_of_query(imp_survey *s, double t_start, double t_end, uint64_t pairs)
+{
+    imp_options options = s->options;
+    options.t_start = t_start;
+    options.t_end = t_end;
+    options.progress = report;
+    options.progress_context = s;
+    if (options.max_pairs > 0) /* 0 would be no limit */
+        options.max_pairs =
+            s->stats.pairs < options.max_pairs ? options.max_pairs - s->stats.pairs : 1;
+    if (pairs > 0 && !(options.max_pairs > 0 && options.max_pairs <= pairs))
+        options.max_pairs = pairs;
+    if (options.max_seconds > 0) {
+        options.max_seconds -= survey_seconds(s);
+        if (!(options.max_seconds > 0)) options.max_seconds = 0x1p-1000;
+    }
+    return options;
+}
+
+static void add_stats(imp_survey *s, const imp_stats *of_query)
+{
+    const uint64_t own = s->queue.count * (sizeof(survey_box) + 2 * s->count * sizeof(double));
+    s->stats.pairs += of_query->pairs;
+    s->stats.nodes += of_query->nodes;
+    s->stats.witness_searches += of_query->witness_searches;
+    if (of_query->peak_heap > s->stats.peak_heap) s->stats.peak_heap = of_query->peak_heap;
+    if (of_query->bytes + own > s->stats.bytes) s->stats.bytes = of_query->bytes + own;
+}
+
+query_times box_times(const imp_survey *s, const survey_box *box)
+{
+    const size_t swept = s->pairs[box->pair].swept;
+    const double t_end = s->best.t < s->options.t_end ? s->best.t : s->options.t_end;
+    if (box_is_swept(&s->pairs[box->pair]))
+        return (query_times){box->range[2 * swept], box->range[2 * swept + 1]};
+    if (s->is_distance) return (query_times){s->options.t_start, s->options.t_end};
+    return (query_times){box->key, t_end};
+}
+
+bool box_is_limit(imp_reason reason)
+{
+    return reason == IMP_REASON_PAIRS || reason == IMP_REASON_SECONDS ||
+           reason == IMP_REASON_MEMORY || reason == IMP_REASON_CANCELLED;
+}
+
+bool box_must_end(imp_survey *s, imp_reason reason)
+{
+    if (!box_is_limit(reason)) return false;
+    atomic_store(&s->cancelled, false);
+    s->reason = reason;
+    return true;
+}
+
+imp_code box_run_contact(imp_survey *s, imp_scene *scene, query_times times, const double gamma[2],
+                         uint64_t pairs, const query_spread *spread, imp_result *result,
+                         imp_error *error)
+{
+    imp_options options = options_of_query(s, times.start, times.end, pairs);
+    options.gamma = gamma[0];
+    options.gamma_clear = gamma[1];
+    *result = (imp_result){.struct_size = (uint32_t)sizeof *result};
+    imp_query *query = imp_query_new(scene, &options, error);
+    if (query == NULL) return error != NULL ? error->code : IMP_ERROR_USAGE;
+    query_use_spread(query, spread);
+    imp_code code = imp_query_step(query, 0, error);
+    if (code == IMP_SUCCESS) code = imp_query_get_result(query, result, error);
+    if (code == IMP_SUCCESS) add_stats(s, &result->stats);
+    imp_query_free(query);
+    return code;
+}
+
+imp_code box_run_distance(imp_survey *s, imp_scene *scene, query_times times, double within,
+                          double tolerance, imp_clearance *answer, imp_error *error)
+{
+    const imp_options options = options_of_query(s, times.start, times.end, 0);
+    imp_clearance_options asked = imp_clearance_options_default();
+    asked.within = within;
+    asked.tolerance = tolerance;
+    *answer = (imp_clearance){.struct_size = (uint32_t)sizeof *answer};
+    imp_query *query = imp_clearance_new(scene, &options, &asked, error);
+    if (query == NULL) return error != NULL ? error->code : IMP_ERROR_USAGE;
+    imp_code code = imp_query_step(query, 0, error);
+    if (code == IMP_SUCCESS) code = imp_clearance_get(query, 0, answer, error);
+    if (code == IMP_SUCCESS) add_stats(s, &answer->stats);
+    imp_query_free(query);
+    return code;
+}

@@ -1,0 +1,64 @@
+/* SPDX-FileCopyrightText: The Impinge authors
+ * SPDX-License-Identifier: Apache-2.0 */
+#ifndef CORE_SURVEY_BOX_QUESTION_H
+#define CORE_SURVEY_BOX_QUESTION_H
+
+#include "core/survey/survey_internal.h"
+
+/* How one box of parameter values is decided (survey_ask): box_query.c asks the ordinary query at
+ * the middle of the box, box_contact.c and box_distance.c draw the conclusions for the earliest
+ * contact and for the least distance, survey_box.c has what both share. */
+
+/* What is left of a box that was asked about. */
+typedef enum box_rest {
+    BOX_OPEN,   /* to be halved */
+    BOX_DONE,   /* nothing, or nothing that could change the answer */
+    BOX_WAITING /* all of it: a limit came, or double precision resolves no more */
+} box_rest;
+
+/* The times of the queries of a box: what is left of the parameter that is swept, or of time. */
+typedef struct query_times {
+    double start, end;
+} query_times;
+
+/* Whether the pair stands for all pairs of bodies that no parameter moves; whether its queries take
+ * a parameter for their time. */
+bool box_is_rest(const survey_pair *pair);
+bool box_is_swept(const survey_pair *pair);
+
+query_times box_times(const imp_survey *s, const survey_box *box);
+
+/* Makes the scene of the box's bodies at its middle; free it by imp_scene_free. */
+imp_code box_scene(imp_survey *s, const survey_box *box, imp_scene **made, imp_error *error);
+
+/* Runs a query on that scene. gamma: {gamma, gamma_clear}; pairs: a limit of this query's own, 0:
+ * none; spread may be NULL. */
+imp_code box_run_contact(imp_survey *s, imp_scene *scene, query_times times, const double gamma[2],
+                         uint64_t pairs, const query_spread *spread, imp_result *result,
+                         imp_error *error);
+imp_code box_run_distance(imp_survey *s, imp_scene *scene, query_times times, double within,
+                          double tolerance, imp_clearance *answer, imp_error *error);
+
+bool box_is_limit(imp_reason reason);
+
+/* Notes why the survey ends, where a query met a limit. */
+bool box_must_end(imp_survey *s, imp_reason reason);
+
+/* Measures the box over the times in question: for a contact, those that are left. */
+imp_code box_measure(imp_survey *s, const survey_box *box, survey_view *view, imp_error *error);
+
+/* Queues the halves of the box, which share the middle. *done false: it cannot be halved. */
+imp_code box_split(imp_survey *s, const survey_box *box, const survey_view *view, bool *done,
+                   imp_error *error);
+
+/* Replaces the bodies' indices in the scene of a box by those in the scene. */
+void box_name_side(const survey_pair *pair, imp_side *a, imp_side *b);
+
+/* Keeps the values of a witness at a time of its query, and replaces that by the scene's time. */
+void box_keep_values(imp_survey *s, const survey_box *box, double *t);
+
+/* Asks about a box; *rest is BOX_OPEN at the call. */
+imp_code box_ask_contact(imp_survey *s, survey_box *box, box_rest *rest, imp_error *error);
+imp_code box_ask_distance(imp_survey *s, survey_box *box, box_rest *rest, imp_error *error);
+
+#endif
