@@ -11,6 +11,8 @@ tools_libproof_la_SOURCES = \
     tools/proof/branch.c tools/proof/branch.h \
     tools/proof/formula.c tools/proof/formula.h \
     tools/proof/jet.c tools/proof/jet.h \
+    tools/proof/jet_internal.h \
+    tools/proof/jet_several.c \
     tools/proof/jet_functions.c \
     tools/proof/double_interval.h \
     tools/proof/ld_ends.h \
@@ -271,6 +273,8 @@ tools_libverify_la_SOURCES = \
     tools/proof/box.h tools/proof/double_interval.h \
     tools/proof/formula.c tools/proof/formula.h \
     tools/proof/jet.c tools/proof/jet.h \
+    tools/proof/jet_internal.h \
+    tools/proof/jet_several.c \
     tools/proof/jet_functions.c \
     tools/proof/ld_ends.h tools/proof/ld_interval.h \
     tools/proof/reader.c tools/proof/reader_internal.h \
@@ -278,6 +282,8 @@ tools_libverify_la_SOURCES = \
     tools/proof/reader_part.c \
     tools/proof/steps.h \
     tools/verify/apart.c tools/verify/apart.h \
+    tools/verify/apart_axis.c tools/verify/apart_internal.h \
+    tools/verify/apart_cell.c \
     tools/verify/enclose.c tools/verify/enclose.h \
     tools/verify/input.c tools/verify/input.h \
     tools/verify/mpfi_functions.c \
