@@ -91,6 +91,7 @@ core_plugin = \
     core/plugin/parameter_value.c \
     core/plugin/parameters.c core/plugin/parameters.h core/plugin/parameters_internal.h \
     core/plugin/plugin_check.c core/plugin/plugin_check.h \
+    core/plugin/plugin_check_row.c core/plugin/plugin_check_row.h \
     core/plugin/plugin_file.c core/plugin/plugin_file.h \
     core/plugin/reading_limits.h \
     core/plugin/registry.c core/plugin/registry.h \
@@ -111,6 +112,8 @@ core_scene = \
     core/scene/posed_scene.c core/scene/posed_scene.h \
     core/scene/scene.c core/scene/scene.h \
     core/scene/scene_change.c core/scene/scene_change.h \
+    core/scene/scene_memory.c \
+    core/scene/scene_options.c \
     core/scene/scene_formula.c \
     core/scene/scene_groups.c core/scene/scene_internal.h \
     core/scene/scene_parameters.c core/scene/scene_parameters.h \
@@ -245,6 +248,7 @@ core_reader = \
     core/reader/scene_bodies.c core/reader/scene_bodies.h \
     core/reader/scene_build.c core/reader/scene_build.h \
     core/reader/scene_file.c core/reader/scene_file.h \
+    core/reader/scene_definitions.c \
     core/reader/scene_instances.c core/reader/scene_instances.h \
     core/reader/scene_json.c core/reader/scene_json.h \
     core/reader/scene_label.c core/reader/scene_label.h \

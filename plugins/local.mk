@@ -150,6 +150,8 @@ noinst_LTLIBRARIES += plugins/libcommon.la
 plugins_libcommon_la_SOURCES = \
     plugins/common/axis.c plugins/common/axis.h \
     plugins/common/course.c plugins/common/course.h \
+    plugins/common/course_internal.h \
+    plugins/common/course_table.c \
     plugins/common/csv.c plugins/common/csv.h \
     plugins/common/csv_cell.c plugins/common/csv_cell.h \
     plugins/common/units.c plugins/common/units.h \

@@ -52,6 +52,10 @@ typedef struct scene_instances {
 imp_code scene_instances_begin(scene_instances *p, const json_t *root, const place *at);
 void scene_instances_clear(scene_instances *p);
 
+/* Finds the definition of a name, which must be of that kind, and reads it if that is not done. */
+imp_code scene_instances_use(scene_instances *p, const char *name, imp_type_kind kind,
+                             const place *at, definition **used);
+
 /* Adds a parameter to the scene, by a name that it may have. */
 imp_code scene_instances_parameter(scene_instances *p, const char *name, double lo, double hi,
                                    const place *at);

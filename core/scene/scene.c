@@ -9,7 +9,6 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "core/base/sized.h"
 #include "core/base/status.h"
 #include "core/common/array.h"
 #include "core/scene/default_times.h"
@@ -153,81 +152,6 @@ imp_code scene_add_surface(imp_scene *scene, size_t index, surface *s)
     return IMP_SUCCESS;
 }
 
-/* --- Memory ----------------------------------------------------------------------------------- */
-
-static int compare_addresses(const void *x, const void *y)
-{
-    const uintptr_t a = *(const uintptr_t *)x, b = *(const uintptr_t *)y;
-    return (a > b) - (a < b);
-}
-
-/* Addresses of instances, in any order. */
-typedef struct address_list {
-    uintptr_t *at;
-    size_t count, capacity;
-} address_list;
-
-static bool add_address(address_list *list, const shared_instance *p)
-{
-    uintptr_t *grown = array_reserve(list->at, list->count, &list->capacity, sizeof *grown);
-    if (grown == NULL) return false;
-    list->at = grown;
-    list->at[list->count++] = (uintptr_t)p;
-    return true;
-}
-
-static bool add_addresses(address_list *list, const imp_scene *scene, size_t body)
-{
-    const scene_body *b = &scene->bodies[body];
-    for (size_t k = 0; k < b->count; ++k)
-        for (size_t stage = 0; stage <= surface_map_count(b->members[k].surface); ++stage)
-            if (!add_address(list, surface_origin(b->members[k].surface, stage))) return false;
-    if (scene->layout == NULL) return true;
-    const instance_list *maps = &scene->layout[body].maps;
-    for (size_t k = 0; k < maps->count; ++k)
-        if (!add_address(list, maps->at[k])) return false;
-    return true;
-}
-
-/* Each instance counts once, however many surfaces share it, and in each of the scenes that do: so
- * the sum does not depend on which other scenes there are. */
-static imp_code sum_instances(const imp_scene *scene, uint64_t *bytes)
-{
-    address_list list = {.count = 0};
-    bool kept = true;
-    for (size_t b = 0; b < scene->count && kept; ++b) kept = add_addresses(&list, scene, b);
-    if (list.count > 0) qsort(list.at, list.count, sizeof *list.at, compare_addresses);
-    *bytes = 0;
-    for (size_t k = 0; k < list.count; ++k)
-        if (k == 0 || list.at[k] != list.at[k - 1])
-            *bytes += instance_bytes((const shared_instance *)list.at[k]);
-    free(list.at);
-    return kept ? IMP_SUCCESS : IMP_ERROR_MEMORY;
-}
-
-static uint64_t sum_of_bytes(const imp_scene *scene)
-{
-    uint64_t bytes = sizeof *scene + scene->capacity * sizeof *scene->bodies +
-                     scene->group_count * sizeof *scene->groups +
-                     scene->ignored.capacity * sizeof *scene->ignored.at;
-    for (size_t b = 0; b < scene->count; ++b) {
-        const scene_body *body = &scene->bodies[b];
-        bytes += strlen(body->name) + 1 + body->capacity * sizeof *body->members +
-                 body->group_capacity * sizeof *body->groups + 2 * INSTANCE_BLOCK;
-        for (size_t k = 0; k < body->count; ++k) bytes += surface_bytes(body->members[k].surface);
-    }
-    for (size_t b = 0; b < scene->count && scene->layout != NULL; ++b) {
-        const instance_list *maps = &scene->layout[b].maps;
-        bytes += sizeof *scene->layout + maps->capacity * sizeof *maps->at;
-    }
-    return bytes;
-}
-
-uint64_t scene_bytes(const imp_scene *scene)
-{
-    return scene->bytes > 0 ? scene->bytes : sum_of_bytes(scene);
-}
-
 /* --- Once it is built ------------------------------------------------------------------------- */
 
 void scene_note_times(imp_scene *scene)
@@ -253,9 +177,7 @@ void scene_choose_times(imp_scene *scene)
 
 imp_code scene_complete(imp_scene *scene)
 {
-    uint64_t of_instances;
-    if (sum_instances(scene, &of_instances) != IMP_SUCCESS) return IMP_ERROR_MEMORY;
-    scene->bytes = sum_of_bytes(scene) + of_instances;
+    if (scene_count_bytes(scene) != IMP_SUCCESS) return IMP_ERROR_MEMORY;
     scene->chooses_times = isnan(scene->settings.t_start);
     scene_note_times(scene);
     if (!scene_note_remarks(scene, &scene->remarks)) return IMP_ERROR_MEMORY;
@@ -331,51 +253,4 @@ const surface *scene_surface(const imp_scene *scene, size_t body, size_t index)
 {
     if (scene == NULL || body >= scene->count || index >= scene->bodies[body].count) return NULL;
     return scene->bodies[body].members[index].surface;
-}
-
-void scene_options(const imp_scene *scene, imp_options *options)
-{
-    const scene_settings *set = &scene->settings;
-    *options = (imp_options){.struct_size = (uint32_t)sizeof *options,
-                             .t_start = set->t_start,
-                             .t_end = set->t_end,
-                             .gamma = set->gamma,
-                             .gamma_clear = set->gamma_clear,
-                             .max_bytes = (uint64_t)1 << 30};
-    double time[2];
-    if (!isnan(set->t_start) || default_times(scene, time, NULL) != IMP_SUCCESS) return;
-    options->t_start = time[0];
-    options->t_end = time[1];
-}
-
-/* NAN twice stands for the scene's own times, which can be wrong. */
-static imp_code check_times(const imp_scene *scene, const imp_options *options, imp_error *error)
-{
-    double time[2];
-    return isnan(options->t_start) && isnan(options->t_end) ? default_times(scene, time, error)
-                                                            : IMP_SUCCESS;
-}
-
-imp_code scene_check_options(const imp_scene *scene, const imp_options *options, imp_error *error)
-{
-    if (check_times(scene, options, error) != IMP_SUCCESS) return IMP_ERROR_SCENE;
-    if (!(options->t_start <= options->t_end && options->t_start > -INFINITY &&
-          options->t_end < INFINITY))
-        return error_set(error, IMP_ERROR_USAGE, "time: got [%g, %g], must be finite and not empty",
-                         options->t_start, options->t_end);
-    if (!(options->max_seconds >= 0))
-        return error_set(error, IMP_ERROR_USAGE, "max_seconds: got %g, must be >= 0",
-                         options->max_seconds);
-    return IMP_SUCCESS;
-}
-
-imp_code imp_options_get_default(const imp_scene *scene, imp_options *options, imp_error *error)
-{
-    if (scene == NULL) return error_set_missing(error, "imp_options_get_default");
-    imp_options own;
-    scene_options(scene, &own);
-    const imp_code code = sized_check("imp_options", options, SCENE_OPTIONS_FIRST, error);
-    if (code != IMP_SUCCESS) return code;
-    sized_write(options, &own);
-    return check_times(scene, &own, error);
 }

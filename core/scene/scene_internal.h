@@ -10,7 +10,8 @@
 #include "core/tree/node.h"
 
 /* The scene itself, for the files that read its fields: scene.c builds it and frees it,
- * scene_groups.c holds who ignores whom, scene_trees.c makes the trees of its surfaces. */
+ * scene_groups.c holds who ignores whom, scene_memory.c counts its bytes, scene_options.c checks
+ * what is asked of it, scene_trees.c makes the trees of its surfaces. */
 
 /* A surface without its last maps, for trees in a frame that moves with these. */
 typedef struct inner {
@@ -64,6 +65,9 @@ struct imp_scene {
 
 /* Sets t_from and t_to. */
 void scene_note_times(imp_scene *scene);
+
+/* Sets `bytes`, when all of it is built. IMP_ERROR_MEMORY: no memory to count. */
+imp_code scene_count_bytes(imp_scene *scene);
 
 /* Chooses the times to examine, if nobody has set them. */
 void scene_choose_times(imp_scene *scene);
