@@ -43,6 +43,7 @@ core_surface = \
     core/surface/instance.c core/surface/instance.h \
     core/surface/region.c core/surface/region.h \
     core/surface/slip.h core/surface/slip_center.c \
+    core/surface/surface_status.c \
     core/surface/surface.c core/surface/surface.h \
     core/surface/surface_distance.c \
     core/surface/surface_include.c core/surface/surface_internal.h \
@@ -56,6 +57,7 @@ core_surface = \
 core_tree = \
     core/tree/bound_audit.c core/tree/bound_audit.h \
     core/tree/distance_audit.c core/tree/distance_audit.h \
+    core/tree/hierarchy_build.c core/tree/hierarchy_internal.h \
     core/tree/hierarchy.c core/tree/hierarchy.h \
     core/tree/model_lanes.h \
     core/tree/net.c core/tree/net.h core/tree/net_rows.h \
@@ -102,6 +104,7 @@ core_plugin = \
     core/plugin/value_bytes.c core/plugin/value_bytes.h \
     core/plugin/worker.c core/plugin/worker.h \
     core/plugin/worker_pool.c core/plugin/worker_pool.h \
+    core/plugin/worker_create.c core/plugin/worker_internal.h \
     core/plugin/worker_serve.c
 
 core_scene = \
@@ -250,6 +253,7 @@ core_reader = \
     core/reader/scene_file.c core/reader/scene_file.h \
     core/reader/scene_definitions.c \
     core/reader/scene_instances.c core/reader/scene_instances.h \
+    core/reader/scene_pair.c \
     core/reader/scene_json.c core/reader/scene_json.h \
     core/reader/scene_label.c core/reader/scene_label.h \
     core/reader/scene_shared.c \

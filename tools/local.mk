@@ -127,6 +127,7 @@ tools_cli = \
     tools/cli/options.c tools/cli/options.h \
     tools/cli/ordered_pool.c tools/cli/ordered_pool.h \
     tools/cli/output.c tools/cli/output.h \
+    tools/cli/output_json.c \
     tools/cli/output_file.c tools/cli/output_file.h \
     tools/cli/output_target.c tools/cli/output_target.h \
     tools/cli/parts.c tools/cli/parts.h \
