@@ -145,6 +145,7 @@ tools_cli = \
     tools/cli/scene_info.c tools/cli/scene_info.h \
     tools/cli/survey.c tools/cli/survey.h \
     tools/cli/survey_boxes.c tools/cli/survey_boxes.h \
+    tools/cli/survey_parameters.c \
     tools/cli/series.c tools/cli/series.h \
     tools/cli/standard_output.c tools/cli/standard_output.h \
     tools/cli/vec.h \

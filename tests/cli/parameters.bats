@@ -169,15 +169,33 @@ in_parts() {
     [ ! -e p ]
 }
 
-@test "a parameter that nobody follows is a warning" {
-    arms >arms.json
-    run -0 --separate-stderr "$IMPINGE" solve arms.json --parameter c=0,1
-    [[ $stderr == *"warning: no surface or map has the parameter 'c' as its clock"* ]]
+@test "a declared parameter that nobody follows is a warning" {
+    arms | jq -c '.parameters.c = [0, 1]' >arms.json
+    for option in '' '--parameter c=0,2'; do
+        # shellcheck disable=SC2086 # an option and its value, or none
+        run -0 --separate-stderr "$IMPINGE" solve arms.json $option
+        [[ $stderr == *"warning: no surface or map has the parameter 'c' as its clock"* ]]
+    done
     for verb in solve clearance; do
-        run -0 --separate-stderr "$IMPINGE" $verb arms.json --parameter c=0,1 --json
+        run -0 --separate-stderr "$IMPINGE" $verb arms.json --json
         json '.warnings | length == 1 and .[0].parameter == "c"'
     done
     valid clearance
+}
+
+@test "a parameter of the command line that nobody declares or follows is refused" {
+    arms | sed 's/"a": \[/"angle": [/; s/"clock": "a"/"clock": "angle"/' >arms.json
+    for verb in solve clearance; do
+        fails 2 "got 'angel', which the scene does not declare" "$IMPINGE" $verb arms.json \
+            --parameter angel=0,1
+        [[ $stderr == *"did you mean 'angle'? its parameters are: angle, b"* ]]
+    done
+    arms | sed 's/"clock": "a"/"clock": [-1, 1]/' >own.json
+    fails 2 "got 'rotate#1'" "$IMPINGE" solve own.json --parameter rotate#1=0,1
+    [[ $stderr == *'its parameters are: a, b'* ]]
+    fails 2 'its parameters are: none' "$IMPINGE" pair sphere 'sphere center=3,0,0' --parameter x=0,1
+    fails 2 'its parameters are: x' "$IMPINGE" pair 'sphere ! translate velocity=1,0,0 clock=x' \
+        'sphere center=3.5,0,0' --parameter x=0,1 --parameter yy=0,1
 }
 
 @test "batch answers a line with parameters for all values" {

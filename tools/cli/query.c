@@ -199,13 +199,17 @@ exit_status query_answer(imp_scene *scene, const imp_error *error, const argumen
 static imp_scene *scene_of_text(imp_registry *registry, char *text, size_t length, const char *name,
                                 const arguments *args, bool *complained, imp_error *error)
 {
+    size_t declared = 0;
     if (arguments_option(args, "parameter") != NULL)
-        text = survey_add_parameters(text, &length, args);
+        text = survey_add_parameters(text, &length, &declared, args);
     *complained = text == NULL;
     imp_scene *scene =
         text != NULL ? imp_scene_from_json(registry, text, length, name, error) : NULL;
     free(text);
-    return scene;
+    if (scene == NULL || survey_check_parameters(scene, declared, args, error) == IMP_SUCCESS)
+        return scene;
+    imp_scene_free(scene);
+    return NULL;
 }
 
 /* Files are read by the library, unless parameters are put into them; standard input is read here,

@@ -18,13 +18,6 @@
 #include "tools/cli/survey_boxes.h"
 #include "tools/cli/verbs.h"
 
-const option options_parameters[] = {
-    {.name = "parameter",
-     .kind = OPTION_RANGE,
-     .argument = "NAME=LO,HI",
-     .help = "a parameter of the scene, or another range of one; as often as needed"},
-    {.name = NULL}};
-
 const option options_survey[] = {
     {.name = "boxes",
      .kind = OPTION_TEXT,
@@ -39,42 +32,6 @@ const option options_survey[] = {
      .argument = "N",
      .help = "ask about at most N boxes of parameter values; 0: no limit (0)"},
     {.name = NULL}};
-
-/* --- Parameters of the command line ----------------------------------------------------------- */
-
-static exit_status set_parameters(json_t *scene, const arguments *args)
-{
-    json_t *all = json_object_get(scene, "parameters");
-    if (all == NULL) {
-        all = json_object();
-        if (json_object_set_new(scene, "parameters", all) != 0)
-            return complain_of_memory(args->verb->name);
-    }
-    for (size_t k = 0; k < args->value_count; ++k) {
-        const option_value *value = &args->values[k];
-        if (strcmp(value->row->name, "parameter") != 0) continue;
-        if (!json_is_object(all)) return EXIT_ANSWERED; /* the reader complains */
-        char *name = strndup(value->text, (size_t)(strchr(value->text, '=') - value->text));
-        json_t *range = json_pack("[f,f]", value->number[0], value->number[1]);
-        const bool is_set = json_object_set_new(all, name, range) == 0; /* name may be NULL */
-        free(name);
-        if (!is_set) return complain_of_memory(args->verb->name);
-    }
-    return EXIT_ANSWERED;
-}
-
-char *survey_add_parameters(char *text, size_t *length, const arguments *args)
-{
-    json_t *scene = json_loadb(text, *length, JSON_REJECT_DUPLICATES, NULL);
-    if (!json_is_object(scene)) return json_decref(scene), text;
-    const exit_status status = set_parameters(scene, args);
-    free(text);
-    text = status == EXIT_ANSWERED ? json_dumps(scene, JSON_COMPACT) : NULL;
-    json_decref(scene);
-    if (text == NULL && status == EXIT_ANSWERED) complain_of_memory(args->verb->name);
-    if (text != NULL) *length = strlen(text);
-    return text;
-}
 
 /* --- Whether it can be answered --------------------------------------------------------------- */
 

@@ -31,8 +31,13 @@ imp_code survey_solve(imp_scene *scene, const arguments *args, imp_result *resul
                       imp_error *error);
 
 /* Returns the text of a scene, with the parameters of the command line put into it: `text` itself
- * is freed. Texts that are no JSON object stay as they are, so that the reader complains. NULL: it
- * complained. */
-char *survey_add_parameters(char *text, size_t *length, const arguments *args);
+ * is freed. Texts that are no JSON object stay as they are, so that the reader complains.
+ * *declared: how many parameters the text has of its own, which come first. NULL: it complained. */
+char *survey_add_parameters(char *text, size_t *length, size_t *declared, const arguments *args);
+
+/* Refuses names of the command line that the scene, made of that text, neither declares nor
+ * follows. */
+imp_code survey_check_parameters(const imp_scene *scene, size_t declared, const arguments *args,
+                                 imp_error *error);
 
 #endif
