@@ -80,6 +80,10 @@ check_suites = \
     tests/unit/test_steps \
     tests/unit/test_surface \
     tests/unit/test_survey \
+    tests/unit/test_survey_state \
+    tests/unit/test_clocks \
+    tests/unit/test_survey_samples \
+    tests/unit/test_spreads \
     tests/unit/test_threads \
     tests/unit/test_times \
     tests/unit/test_touchings
@@ -464,7 +468,23 @@ tests_unit_test_steps_SOURCES = tests/unit/test_steps.c tests/support/scene_vari
 tests_unit_test_formula_SOURCES = tests/unit/test_formula.c tests/support/oracle.c
 tests_unit_test_model_SOURCES = tests/unit/test_model.c tests/support/oracle.c
 
-noinst_HEADERS += tests/support/built_plugins.h tests/support/comma_locale.h tests/support/compose.h tests/support/oracle.h tests/support/suite.h tests/support/meeting.h tests/support/query_helpers.h tests/support/sphere_scenes.h tests/support/scene_variants.h tests/support/sandbox.h tests/support/kit_registry.h tests/support/scene_text.h tests/support/alloc_failure.h tests/plugins/tiny.h tests/plugins/liar.h
+noinst_HEADERS += \
+    tests/plugins/liar.h \
+    tests/plugins/tiny.h \
+    tests/support/alloc_failure.h \
+    tests/support/built_plugins.h \
+    tests/support/comma_locale.h \
+    tests/support/compose.h \
+    tests/support/kit_registry.h \
+    tests/support/meeting.h \
+    tests/support/oracle.h \
+    tests/support/query_helpers.h \
+    tests/support/sandbox.h \
+    tests/support/scene_text.h \
+    tests/support/scene_variants.h \
+    tests/support/sphere_scenes.h \
+    tests/support/suite.h \
+    tests/support/survey_helpers.h
 noinst_HEADERS += tests/plugins/mistakes.h tests/plugins/pipe.h tests/plugins/slab.h tests/plugins/slack_net.h tests/plugins/stack.h \
     tests/support/model_value.h
 

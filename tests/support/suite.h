@@ -40,15 +40,21 @@ static inline double suite_end_or_inside(uint64_t *state)
     return random_bits(state) % 2 ? random_bits(state) % 2 ? -1 : 1 : random_between(state, -1, 1);
 }
 
+/* A test that runs for _i = 0 ... end - 1. */
+typedef struct suite_loop {
+    const TTest *test;
+    int end;
+} suite_loop;
+
 /* `open` runs before each test and `close` after it; NULL: nothing. */
-static inline int suite_main_with(const char *title, const TTest *const *tests, size_t count,
-                                  void (*open)(void), void (*close)(void))
+static inline int suite_main_loops(const char *title, const suite_loop *loops, size_t count,
+                                   void (*open)(void), void (*close)(void))
 {
     Suite *suite = suite_create(title);
     TCase *tcase = tcase_create(title);
     tcase_set_timeout(tcase, 300);
     tcase_add_checked_fixture(tcase, open, close);
-    for (size_t k = 0; k < count; ++k) tcase_add_test(tcase, tests[k]);
+    for (size_t k = 0; k < count; ++k) tcase_add_loop_test(tcase, loops[k].test, 0, loops[k].end);
     suite_add_tcase(suite, tcase);
     SRunner *runner = srunner_create(suite);
     srunner_run_all(runner, CK_ENV);
@@ -57,6 +63,16 @@ static inline int suite_main_with(const char *title, const TTest *const *tests, 
         printf("replay with IMPINGE_TEST_SEED=%llu\n", (unsigned long long)suite_seed());
     srunner_free(runner);
     return failed == 0 ? EXIT_SUCCESS : EXIT_FAILURE;
+}
+
+static inline int suite_main_with(const char *title, const TTest *const *tests, size_t count,
+                                  void (*open)(void), void (*close)(void))
+{
+    enum { TESTS_MAX = 128 };
+    suite_loop loops[TESTS_MAX];
+    if (count > TESTS_MAX) abort();
+    for (size_t k = 0; k < count; ++k) loops[k] = (suite_loop){tests[k], 1};
+    return suite_main_loops(title, loops, count, open, close);
 }
 
 static inline int suite_main(const char *title, const TTest *const *tests, size_t count)

@@ -366,30 +366,22 @@ START_TEST(a_box_whose_axis_leans_touches_the_table)
 }
 END_TEST
 
-static const char TITLE[] = "shared motion";
-
 int main(void)
 {
-    TCase *tcase = tcase_create(TITLE);
-    Suite *suite = suite_create(TITLE);
-    tcase_set_timeout(tcase, 300);
-    tcase_add_checked_fixture(tcase, open_registry, close_registry);
-    tcase_add_loop_test(tcase, parts_that_are_carried_cost_what_they_cost_at_rest, 0, 2);
-    tcase_add_test(tcase, answers_are_told_in_the_world);
-    tcase_add_test(tcase, a_part_that_touches_what_carries_it_is_not_at_rest);
-    tcase_add_test(tcase, only_motion_after_the_last_map_that_is_not_rigid_is_shared);
-    tcase_add_test(tcase, one_surface_may_be_in_several_frames);
-    tcase_add_test(tcase, the_earliest_contact_of_several_frames_is_told);
-    tcase_add_loop_test(tcase, what_turns_within_itself_costs_no_time, 0, TURNINGS);
-    tcase_add_test(tcase, slices_of_time_know_of_what_turns);
-    tcase_add_test(tcase, what_turns_beside_its_axis_is_searched_in_time);
-    tcase_add_test(tcase, what_touches_while_it_turns_touches_at_the_start);
-    tcase_add_loop_test(tcase, a_box_that_turns_on_an_inclined_table_costs_no_time, 0, TABLES);
-    tcase_add_test(tcase, a_box_whose_axis_leans_touches_the_table);
-    suite_add_tcase(suite, tcase);
-    SRunner *runner = srunner_create(suite);
-    srunner_run_all(runner, CK_ENV);
-    const int failed = srunner_ntests_failed(runner);
-    srunner_free(runner);
-    return failed == 0 ? EXIT_SUCCESS : EXIT_FAILURE;
+    const suite_loop loops[] = {
+        {parts_that_are_carried_cost_what_they_cost_at_rest, 2},
+        {answers_are_told_in_the_world, 1},
+        {a_part_that_touches_what_carries_it_is_not_at_rest, 1},
+        {only_motion_after_the_last_map_that_is_not_rigid_is_shared, 1},
+        {one_surface_may_be_in_several_frames, 1},
+        {the_earliest_contact_of_several_frames_is_told, 1},
+        {what_turns_within_itself_costs_no_time, TURNINGS},
+        {slices_of_time_know_of_what_turns, 1},
+        {what_turns_beside_its_axis_is_searched_in_time, 1},
+        {what_touches_while_it_turns_touches_at_the_start, 1},
+        {a_box_that_turns_on_an_inclined_table_costs_no_time, TABLES},
+        {a_box_whose_axis_leans_touches_the_table, 1},
+    };
+    return suite_main_loops("shared motion", loops, sizeof loops / sizeof *loops, open_registry,
+                            close_registry);
 }

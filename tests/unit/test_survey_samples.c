@@ -1,0 +1,191 @@
+/* SPDX-FileCopyrightText: The Impinge authors
+ * SPDX-License-Identifier: Apache-2.0 */
+#include <config.h>
+
+#include "tests/support/survey_helpers.h"
+
+/* Random scenes with parameters: boxes that are proved against sampled points. */
+
+/* --- Random scenes against samples ------------------------------------------------------------ */
+
+typedef struct told_box {
+    double lo[PARAMETERS], hi[PARAMETERS], time[2], lower;
+} told_box;
+
+typedef struct told_boxes {
+    told_box at[BOXES];
+    size_t count, seen;
+    uint64_t *random;
+} told_boxes;
+
+/* Keeps some of the boxes, each with the same chance. */
+static void keep_box(void *context, const imp_survey_box *box)
+{
+    told_boxes *all = context;
+    if (box->verdict != IMP_VERDICT_CLEAR) return;
+    const size_t seen = all->seen++;
+    const size_t k =
+        seen < BOXES ? seen : (size_t)(random_fraction(all->random) * (double)(seen + 1));
+    if (k >= BOXES) return;
+    told_box *to = &all->at[k];
+    if (k == all->count) all->count += 1;
+    ck_assert_uint_eq(box->count, PARAMETERS);
+    memcpy(to->lo, box->lo, sizeof to->lo);
+    memcpy(to->hi, box->hi, sizeof to->hi);
+    to->time[0] = box->t_start, to->time[1] = box->t_end;
+    to->lower = box->lower;
+}
+
+/* The least distance of points of both bodies at some values and a time, on a grid. */
+static double sampled(const imp_scene *scene, const double *values, double t)
+{
+    imp_error error;
+    double point[2][GRID * GRID * 8][3], least = INFINITY;
+    size_t count[2] = {0, 0};
+    imp_scene *at = imp_scene_at(scene, values, &error);
+    ck_assert_msg(at != NULL, "%s", error.text);
+    for (size_t body = 0; body < 2; ++body)
+        for (size_t k = 0; k < imp_scene_piece_count(at, body, 0) && k < 8; ++k) {
+            double lo[3], hi[3];
+            imp_piece_domain(at, (imp_place){body, 0, k}, lo, hi);
+            for (int i = 0; i < GRID * GRID; ++i) {
+                const double p[3] = {lo[0] + (hi[0] - lo[0]) * (i / GRID) / (GRID - 1),
+                                     lo[1] + (hi[1] - lo[1]) * (i % GRID) / (GRID - 1), t};
+                ck_assert_int_eq(imp_piece_eval(at, (imp_place){body, 0, k}, 1, p,
+                                                point[body][count[body]++], NULL, NULL),
+                                 IMP_SUCCESS);
+            }
+        }
+    for (size_t i = 0; i < count[0]; ++i)
+        for (size_t j = 0; j < count[1]; ++j) {
+            const double d = query_distance(point[0][i], point[1][j]);
+            if (d < least) least = d;
+        }
+    imp_scene_free(at);
+    return least;
+}
+
+/* The least distance of both bodies at some values during the times of a box, from above. */
+static double searched(const imp_scene *scene, const double *values, const told_box *box)
+{
+    imp_error error;
+    imp_clearance near = {.struct_size = sizeof near};
+    imp_scene *at = imp_scene_at(scene, values, &error);
+    ck_assert_msg(at != NULL, "%s", error.text);
+    imp_options options = imp_options_default(at);
+    options.t_start = box->time[0], options.t_end = box->time[1];
+    options.max_pairs = 3000;
+    imp_clearance_options asked = imp_clearance_options_default();
+    asked.tolerance = 0.01;
+    imp_query *query = imp_clearance_new(at, &options, &asked, &error);
+    ck_assert_msg(query != NULL, "%s", error.text);
+    ck_assert_int_eq(imp_query_step(query, 0, &error), IMP_SUCCESS);
+    ck_assert_int_eq(imp_clearance_get(query, 0, &near, &error), IMP_SUCCESS);
+    imp_query_free(query);
+    imp_scene_free(at);
+    return near.upper;
+}
+
+enum { SEARCH_EVERY = 8 }; /* boxes of which one is searched, too */
+
+static void check_box(uint64_t *r, const imp_scene *scene, const told_box *box, const char *text)
+{
+    double values[PARAMETERS];
+    const int corner = (int)(8 * random_fraction(r));
+    const bool at_corner = random_fraction(r) < 0.5; /* the worst of a box is there, mostly */
+    for (int j = 0; j < PARAMETERS; ++j)
+        values[j] = at_corner ? (corner >> j & 1 ? box->hi[j] : box->lo[j])
+                              : random_between(r, box->lo[j], box->hi[j]);
+    const double t = random_between(r, box->time[0], box->time[1]);
+    const double d = random_fraction(r) < 1. / SEARCH_EVERY ? searched(scene, values, box)
+                                                            : sampled(scene, values, t);
+    ck_assert_msg(d >= box->lower, "%.17g at %.17g, %.17g, %.17g, t %.17g, but %.17g is proved: %s",
+                  d, values[0], values[1], values[2], t, box->lower, text);
+}
+
+/* Asks for the earliest contact, for a requirement, or for a bracket. */
+static void survey_for_boxes(uint64_t *r, imp_scene *scene, int kind, told_boxes *boxes)
+{
+    imp_survey_options how = imp_survey_options_default();
+    imp_clearance_options asked = imp_clearance_options_default();
+    boxes->count = boxes->seen = 0;
+    boxes->random = r;
+    how.sink = keep_box;
+    how.sink_context = boxes;
+    how.max_boxes = 60;
+    asked.tolerance = 0.2;
+    asked.decide = kind == 1;
+    asked.required = kind == 1 ? random_between(r, 0.01, 1) : 0;
+    survey(scene, 0.02, kind == 0 ? NULL : &asked, &how);
+}
+
+START_TEST(no_sample_is_nearer_than_what_is_proved_of_its_box)
+{
+    uint64_t random = suite_seed() + (uint64_t)_i;
+    static told_boxes boxes;
+    const int scenes = suite_times(12);
+    for (int n = 0; n < scenes; ++n) {
+        char text[4000];
+        double lo[PARAMETERS], hi[PARAMETERS];
+        imp_scene *scene =
+            random_scene(&random, n % 2 == 0 ? 1 : random_between(&random, 0.02, 0.3), text,
+                         sizeof text, lo, hi);
+        survey_for_boxes(&random, scene, n % 3, &boxes);
+        for (size_t k = 0; k < boxes.count; ++k) check_box(&random, scene, &boxes.at[k], text);
+        imp_scene_free(scene);
+    }
+}
+END_TEST
+
+/* The least distance of both bodies, from above, at the corners of the whole box and at values
+ * inside. */
+static double nearest_of_values(uint64_t *r, const imp_scene *scene, const double *lo,
+                                const double *hi)
+{
+    told_box box = {.time = {0, 1}};
+    double least = INFINITY;
+    for (int k = 0; k < 12; ++k) {
+        double values[PARAMETERS];
+        for (int j = 0; j < PARAMETERS; ++j)
+            values[j] = k < 8 ? (k >> j & 1 ? hi[j] : lo[j]) : random_between(r, lo[j], hi[j]);
+        const double d = searched(scene, values, &box);
+        if (d < least) least = d;
+    }
+    return least;
+}
+
+/* Where some values are known to bring the bodies nearer than what is required, all bounds of the
+ * box that holds them are tried at their limit. */
+START_TEST(what_some_values_violate_is_never_proved)
+{
+    uint64_t random = suite_seed() + 1000 + (uint64_t)_i;
+    const int scenes = suite_times(20);
+    for (int n = 0; n < scenes; ++n) {
+        char text[4000];
+        double lo[PARAMETERS], hi[PARAMETERS];
+        imp_scene *scene =
+            random_scene(&random, random_between(&random, 0.02, 0.6), text, sizeof text, lo, hi);
+        imp_clearance_options asked = imp_clearance_options_default();
+        imp_survey_options how = imp_survey_options_default();
+        how.max_boxes = 10;
+        asked.decide = true;
+        asked.required = 1.0001 * nearest_of_values(&random, scene, lo, hi);
+        if (asked.required > 0.01) {
+            const answer found = survey(scene, 1e-3, &asked, &how);
+            ck_assert_msg(found.near.verdict != IMP_REQUIREMENT_HOLDS, "%.17g is not kept: %s",
+                          asked.required, text);
+        }
+        imp_scene_free(scene);
+    }
+}
+END_TEST
+
+int main(void)
+{
+    const suite_loop loops[] = {
+        {no_sample_is_nearer_than_what_is_proved_of_its_box, 4},
+        {what_some_values_violate_is_never_proved, 4},
+    };
+    return suite_main_loops("survey_samples", loops, sizeof loops / sizeof *loops, open_registry,
+                            close_registry);
+}
