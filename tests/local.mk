@@ -20,16 +20,23 @@ check_suites = \
     tests/unit/test_union_find \
     tests/unit/test_callers_mode \
     tests/unit/test_clearance \
+    tests/unit/test_clearance_required \
+    tests/unit/test_clearance_steps \
     tests/unit/test_broad_phase \
     tests/unit/test_builder \
     tests/unit/test_contacts \
     tests/unit/test_distance_maps \
     tests/unit/test_distance_windows \
     tests/unit/test_slips \
+    tests/unit/test_slip_pairs \
+    tests/unit/test_orbits \
     tests/unit/test_solids \
+    tests/unit/test_solid_shells \
+    tests/unit/test_solid_questions \
     tests/unit/test_elf_probe \
     tests/unit/test_elf_tables \
     tests/unit/test_isolate \
+    tests/unit/test_isolate_faults \
     tests/unit/test_isolated_threads \
     tests/unit/test_expression \
     tests/unit/test_expression_faults \
@@ -65,12 +72,16 @@ check_suites = \
     tests/unit/test_posed_pairs \
     tests/unit/test_quadratic \
     tests/unit/test_query \
+    tests/unit/test_query_bodies \
+    tests/unit/test_query_steps \
     tests/unit/test_query_memory \
     tests/unit/test_registry \
     tests/unit/test_rigid_motion \
     tests/unit/test_scene_file \
     tests/unit/test_scene_judge \
     tests/unit/test_separation \
+    tests/unit/test_normal_field \
+    tests/unit/test_separation_distance \
     tests/unit/test_strategy \
     tests/unit/test_shared_motion \
     tests/unit/test_series \
@@ -92,6 +103,7 @@ check_suites = \
 mpfi_suites = \
     tests/fuzz/certificate \
     tests/unit/test_certificates \
+    tests/unit/test_certificate_changes \
     tests/unit/test_plugins \
     tests/unit/test_checker \
     tests/unit/test_distances \
@@ -103,6 +115,8 @@ mpfi_suites = \
     tests/unit/test_nested \
     tests/unit/test_net_models \
     tests/unit/test_nets \
+    tests/unit/test_net_halves \
+    tests/unit/test_net_offers \
     tests/unit/test_net_series \
     tests/unit/test_poses \
     tests/unit/test_set_values \
@@ -151,6 +165,10 @@ tests_unit_test_nested_SOURCES = tests/unit/test_nested.c $(type_oracle) \
     tests/support/sampling.c tests/support/sampling.h
 tests_unit_test_nets_SOURCES = tests/unit/test_nets.c tests/support/netted.h \
     tests/support/oracle_number.c tests/support/judge.c tests/support/judge.h
+tests_unit_test_net_halves_SOURCES = tests/unit/test_net_halves.c tests/support/netted.h \
+    tests/support/oracle_number.c tests/support/judge.c tests/support/judge.h
+tests_unit_test_net_offers_SOURCES = tests/unit/test_net_offers.c tests/support/netted.h \
+    tests/support/oracle_number.c tests/support/judge.c tests/support/judge.h
 tests_unit_test_net_models_SOURCES = tests/unit/test_net_models.c tests/support/netted.h \
     tests/support/oracle_number.c tests/support/judge.c tests/support/judge.h
 tests_unit_test_net_series_SOURCES = tests/unit/test_net_series.c tests/support/netted.h \
@@ -175,6 +193,8 @@ tests_unit_test_checker_SOURCES = tests/unit/test_checker.c \
 tests_unit_test_checker_LDADD = tools/libproof.la $(LDADD)
 tests_unit_test_certificates_CPPFLAGS = $(AM_CPPFLAGS) -DPROOF_DOUBLE
 tests_unit_test_certificates_LDADD = tools/libverify.la $(LDADD)
+tests_unit_test_certificate_changes_CPPFLAGS = $(AM_CPPFLAGS) -DPROOF_DOUBLE
+tests_unit_test_certificate_changes_LDADD = tools/libverify.la $(LDADD)
 tests_unit_test_expression_bounds_SOURCES = tests/unit/test_expression_bounds.c \
     tests/support/expression_oracle.c tests/support/oracle_number.c tests/support/judge.c tests/support/sampling.c
 tests_unit_test_expression_bounds_LDADD = plugins/libexpression.la $(LDADD)
@@ -460,6 +480,10 @@ tests_unit_test_expression_faults_LDADD = plugins/libexpression.la $(LDADD)
 
 # One scene told in many ways.
 tests_unit_test_clearance_SOURCES = tests/unit/test_clearance.c tests/support/scene_variants.c
+tests_unit_test_clearance_required_SOURCES = tests/unit/test_clearance_required.c \
+    tests/support/scene_variants.c
+tests_unit_test_clearance_steps_SOURCES = tests/unit/test_clearance_steps.c \
+    tests/support/scene_variants.c
 tests_unit_test_guarantees_SOURCES = tests/unit/test_guarantees.c tests/support/scene_variants.c
 tests_unit_test_metamorphic_SOURCES = tests/unit/test_metamorphic.c tests/support/scene_variants.c
 tests_unit_test_steps_SOURCES = tests/unit/test_steps.c tests/support/scene_variants.c
@@ -472,16 +496,24 @@ noinst_HEADERS += \
     tests/plugins/liar.h \
     tests/plugins/tiny.h \
     tests/support/alloc_failure.h \
+    tests/support/ball_queries.h \
     tests/support/built_plugins.h \
+    tests/support/clearance_helpers.h \
     tests/support/comma_locale.h \
     tests/support/compose.h \
+    tests/support/isolated_bowl.h \
     tests/support/kit_registry.h \
+    tests/support/made_certificate.h \
     tests/support/meeting.h \
+    tests/support/meeting_nodes.h \
+    tests/support/net_distance.h \
     tests/support/oracle.h \
     tests/support/query_helpers.h \
     tests/support/sandbox.h \
     tests/support/scene_text.h \
     tests/support/scene_variants.h \
+    tests/support/slip_helpers.h \
+    tests/support/solid_helpers.h \
     tests/support/sphere_scenes.h \
     tests/support/suite.h \
     tests/support/survey_helpers.h

@@ -2,68 +2,9 @@
  * SPDX-License-Identifier: Apache-2.0 */
 #include <config.h>
 
-#include <check.h>
-#include <float.h>
-#include <math.h>
-#include <stdio.h>
-#include <stdlib.h>
-#include <string.h>
+#include "tests/support/made_certificate.h"
 
-#include <mpfi.h>
-
-#include "tests/support/suite.h"
-#include "tools/verify/walk.h"
-
-/* impinge-verify on certificates that are made here, and on thousands of changes of them: whatever
- * is accepted must be true, as points of the formulas show. */
-
-enum { BYTES_MAX = 8192, EFFORT = 200, EFFORT_OF_CHANGES = 24 };
-
-typedef struct certificate {
-    uint8_t bytes[BYTES_MAX];
-    size_t size; /* without the checksum */
-} certificate;
-
-static const char bowl[] =
-    "impinge certificate 1\nprogram impinge 0\nverdict contact\napart 0x1p-4\nfrom 0\nto 0.5\n"
-    "within 0.6 at 0.5\npoint 0 0 0 0\npoint 1 0 0 0\n"
-    "body bowl\nshape 1 formula\nu in [-1, 1]; v in [-1, 1]; u; v; 0.1*(u^2 + v^2)\nsurface 0 0\n"
-    "body lid\nshape 1 formula\nh = 1; u in [-1, 1]; v in [-1, 1]; u; v; h - 0.05*u*v\n"
-    "map 1 translate\nx; y; z - t\nsurface 1 1 2\ntrees\n";
-
-static const uint8_t bowl_tree[] = {0, 1, 0, 4, 0x80, 0, 5, 0, 0, 0, 0, 0x7f, 0xff, 0, 6, 7};
-
-/* Two balls that turn together about z, from which that is left out. */
-static const char balls[] =
-    "impinge certificate 1\nprogram impinge 0\nverdict clear\napart 0.25\nfrom 0\nto 1\n"
-    "body a\nshape 1 sphere\nu in [0, 2*pi]; v in [-pi/2, pi/2]; cos(v)*cos(u); cos(v)*sin(u); "
-    "sin(v)\nmap 1 rotate\nx*cos(2*t) - y*sin(2*t); x*sin(2*t) + y*cos(2*t); z\nsurface 0 0 1\n"
-    "body b\nshape 1 sphere\nu in [0, 2*pi]; v in [-pi/2, pi/2]; 4 + cos(v)*cos(u); cos(v)*sin(u); "
-    "sin(v)\nsurface 1 2 1\ntrees\n";
-
-static const uint8_t balls_tree[] = {0, 1, 1, 7};
-
-static certificate made(const char *text, const uint8_t *tree, size_t size)
-{
-    certificate c = {.size = strlen(text) + size};
-    memcpy(c.bytes, text, strlen(text));
-    memcpy(c.bytes + strlen(text), tree, size);
-    return c;
-}
-
-/* Two triangles over two others. */
-static const char roofs[] =
-    "impinge certificate 1\nprogram impinge 0\nverdict clear\napart 0.5\nfrom 0\nto 1\n"
-    "body floor\nshape 2 mesh\nu in [0, 1]; v in [0, 1]; u; v*(1 - u); 0\n"
-    "u in [0, 1]; v in [0, 1]; -u; v*(1 - u); 0\nsurface 0 0\n"
-    "body roof\nshape 2 mesh\nu in [0, 1]; v in [0, 1]; u; v*(1 - u); 1 + u\n"
-    "u in [0, 1]; v in [0, 1]; -u; v*(1 - u); 1 + u\nsurface 1 1\ntrees\n";
-
-static const uint8_t roofs_tree[] = {0, 1, 0, 1, 0, 1, 1, 1, 0, 0, 7, 2, 7, 7};
-
-static certificate roofs_made(void) { return made(roofs, roofs_tree, sizeof roofs_tree); }
-static certificate bowl_made(void) { return made(bowl, bowl_tree, sizeof bowl_tree); }
-static certificate balls_made(void) { return made(balls, balls_tree, sizeof balls_tree); }
+/* impinge-verify on true and false certificates that are made here. */
 
 /* Replaces the first `from` by `to`. */
 static void replace(certificate *c, const char *from, const char *to)
@@ -74,40 +15,6 @@ static void replace(certificate *c, const char *from, const char *to)
     memmove(at + strlen(to), at + strlen(from), behind);
     memcpy(at, to, strlen(to));
     c->size = c->size - strlen(from) + strlen(to);
-}
-
-/* --- Verifying -------------------------------------------------------------------------------- */
-
-static bool verify_bytes(const uint8_t *bytes, size_t size, unsigned long effort, statement *s,
-                         char fault[1400], bool *assumes)
-{
-    FILE *file = fmemopen((void *)(uintptr_t)bytes, size, "rb");
-    ck_assert_ptr_nonnull(file);
-    input in;
-    input_begin(&in, file);
-    walk w = {.in = &in, .says = s, .effort = effort, .shares = 1};
-    bool good = statement_read(s, &in);
-    w.assumed = calloc(s->stage_count + 1, sizeof *w.assumed);
-    good = good && walk_points(&w) && walk_trees(&w);
-    *assumes = false;
-    for (size_t k = 0; k < s->stage_count; ++k) *assumes = *assumes || w.assumed[k];
-    memcpy(fault, in.fault, sizeof in.fault);
-    free(w.assumed);
-    fclose(file);
-    return good;
-}
-
-/* Verifies with the checksum that belongs to the bytes. */
-static bool verify(const certificate *c, unsigned long effort, statement *s, char fault[1400],
-                   bool *assumes)
-{
-    uint8_t all[BYTES_MAX + SHA256_BYTES];
-    sha256 h;
-    memcpy(all, c->bytes, c->size);
-    sha256_begin(&h);
-    sha256_add(&h, all, c->size);
-    sha256_end(&h, all + c->size);
-    return verify_bytes(all, c->size + SHA256_BYTES, effort, s, fault, assumes);
 }
 
 static void require_within(const certificate *c, unsigned long effort, const char *why)
@@ -278,20 +185,6 @@ START_TEST(undefined_maps_ends_and_points_are_refused)
 }
 END_TEST
 
-/* A shaft that turns in its bore: no axis parts more than a strip of them. */
-static certificate shaft_made(void)
-{
-    static const char shaft[] =
-        "impinge certificate 1\nprogram impinge 0\nverdict clear\napart 0.005\nfrom 0\nto 1\n"
-        "body shaft\nshape 1 cylinder\nu in [0, 2*pi]; v in [-1, 1]; 0.99*cos(u) + 0; "
-        "0.99*sin(u); v\nmap 1 rotate\nx*cos(t) - y*sin(t); x*sin(t) + y*cos(t); z\n"
-        "map 1 tilt\nx; 0.6*y - 0.8*z + 2; 0.8*y + 0.6*z\nsurface 0 0 1 2\n"
-        "body bore\nshape 1 cylinder\nu in [0, 2*pi]; v in [-1, 1]; cos(u); sin(u); v\n"
-        "map 1 tilt\nx; 0.6*y - 0.8*z + 2; 0.8*y + 0.6*z\nsurface 1 3 4\ntrees\n";
-    static const uint8_t tree[] = {0, 1, 0, 7};
-    return made(shaft, tree, sizeof tree);
-}
-
 START_TEST(round_surfaces_are_parted_about_their_centre)
 {
     static const char ball[] = "u in [0, 2*pi]; v in [-1, 1]; 0.9*cos(v)*cos(u) + 0; "
@@ -419,164 +312,9 @@ START_TEST(what_cannot_be_said_is_assumed)
 }
 END_TEST
 
-/* --- Changes at random ------------------------------------------------------------------------ */
-
-static size_t draw_piece(const statement *s, size_t chain_index, uint64_t *seed)
-{
-    const size_t count = s->stages[s->chains[chain_index].stages[0]].count;
-    return (size_t)(random_between(seed, 0, 1) * (double)count);
-}
-
-static bool point_of(const place *of, const double p[3], double x[3])
-{
-    const box3 where = {{p[0], p[1], p[2]}, {p[0], p[1], p[2]}};
-    jet out[3], same[3];
-    split unused;
-    if (enclose(of, &where, p, out, same, &unused) != ENCLOSED) return false;
-    for (int i = 0; i < 3; ++i) {
-        if (!(out[i].v.hi - out[i].v.lo < 1e-9)) return false;
-        x[i] = out[i].v.lo;
-    }
-    return true;
-}
-
-/* Whether points are found that are clearly nearer than is stated. Each draw that is nearer draws
- * the next ones to it. */
-static bool is_false(const statement *s, uint64_t *seed)
-{
-    jet *room = malloc((2 * (size_t)s->steps + 1) * sizeof *room);
-    double best = INFINITY, at[5] = {0, 0, 0, 0, s->from}, size = 1;
-    place best_place[2] = {{.of = NULL}, {.of = NULL}};
-    for (int draw = 0; draw < 200; ++draw) {
-        double p[5], x[2][3];
-        box3 all[2];
-        place on[2];
-        for (size_t k = 0; k < 2; ++k) {
-            on[k] = (place){s,    &s->chains[k], draw_piece(s, k, seed), s->chains[k].count - 1,
-                            room, NULL};
-            if (draw >= 60 && best < INFINITY) on[k] = best_place[k];
-            piece_box(&on[k], &all[k]);
-        }
-        for (int j = 0; j < 5; ++j) {
-            const double lo = j < 4 ? all[j / 2].lo[j % 2] : s->from;
-            const double hi = j < 4 ? all[j / 2].hi[j % 2] : s->to;
-            const double r = lo + (hi - lo) * random_between(seed, 0, 1);
-            p[j] = draw < 60 ? r : at[j] + size * (r - at[j]);
-        }
-        const double a[3] = {p[0], p[1], p[4]}, b[3] = {p[2], p[3], p[4]};
-        if (draw > 60) size *= 0.93;
-        if (!point_of(&on[0], a, x[0]) || !point_of(&on[1], b, x[1])) continue;
-        const double gap = hypot(hypot(x[0][0] - x[1][0], x[0][1] - x[1][1]), x[0][2] - x[1][2]);
-        if (gap < best) best = gap, memcpy(at, p, sizeof at), memcpy(best_place, on, sizeof on);
-    }
-    free(room);
-    return best < s->apart * (1 - 1e-9);
-}
-
-static void change(certificate *c, uint64_t *seed)
-{
-    static const char marks[] = "0123456789+-*/().;,uvtxyz ";
-    const size_t at = (size_t)(random_between(seed, 0, 1) * (double)c->size);
-    const double kind = random_between(seed, 0, 1);
-    const char mark = marks[(size_t)(random_between(seed, 0, 1) * (double)(sizeof marks - 1))];
-    if (kind < 0.5)
-        c->bytes[at] = (uint8_t)mark;
-    else if (kind < 0.7)
-        c->bytes[at] ^= (uint8_t)(1u << (unsigned)(random_between(seed, 0, 1) * 8));
-    else if (kind < 0.85) {
-        memmove(c->bytes + at, c->bytes + at + 1, c->size - at - 1);
-        c->size -= 1;
-    } else {
-        memmove(c->bytes + at + 1, c->bytes + at, c->size - at);
-        c->bytes[at] = (uint8_t)mark;
-        c->size += 1;
-    }
-}
-
-START_TEST(no_change_makes_a_false_statement_hold)
-{
-    uint64_t seed = suite_seed();
-    const int count = suite_times(2400);
-    int accepted = 0;
-    for (int k = 0; k < count; ++k) {
-        certificate c = k % 40 == 39 ? shaft_made()
-                        : k % 3 == 0 ? bowl_made()
-                        : k % 3 == 1 ? balls_made()
-                                     : roofs_made();
-        for (int n = 1 + k % 3; n > 0; --n) change(&c, &seed);
-        statement s;
-        char fault[1400];
-        bool assumes;
-        const bool good = verify(&c, EFFORT_OF_CHANGES, &s, fault, &assumes);
-        accepted += good;
-        if (good && !assumes && s.chain_count >= 2 && !statement_ignores(&s, 0, 1))
-            ck_assert_msg(!is_false(&s, &seed), "change %d: false, and accepted: %.*s", k,
-                          (int)c.size, (const char *)c.bytes);
-        statement_free(&s);
-    }
-    ck_assert_int_gt(accepted, 0); /* names and hints may change */
-    ck_assert_int_lt(accepted, count);
-}
-END_TEST
-
-/* --- Intervals -------------------------------------------------------------------------------- */
-
-/* An end, of any size, often one where rounding or overflow begins. */
-static double draw_end(uint64_t *seed)
-{
-    static const double hard[] = {0,        1,        -1, 0x1p-1074, 0x1p-1022, -0x1p-540,
-                                  0x1p1023, -DBL_MAX, 3,  INFINITY,  -INFINITY};
-    const double k = random_between(seed, 0, 1);
-    if (k < 0.4) return hard[(size_t)(k / 0.4 * (double)(sizeof hard / sizeof *hard))];
-    return ldexp(random_between(seed, -1, 1),
-                 (int)random_between(seed, k < 0.8 ? -4 : -1000, k < 0.8 ? 4 : 1000));
-}
-
-static ld_interval draw_interval(uint64_t *seed)
-{
-    const double a = draw_end(seed), b = random_between(seed, 0, 1) < 0.3 ? a : draw_end(seed);
-    return ld_interval_make(a < b ? a : b, a < b ? b : a);
-}
-
-static void set_interval(mpfi_ptr to, ld_interval x)
-{
-    mpfr_set_d(&to->left, x.lo, MPFR_RNDD);
-    mpfr_set_d(&to->right, x.hi, MPFR_RNDU);
-}
-
-START_TEST(operations_in_doubles_contain_those_of_mpfi)
-{
-    uint64_t seed = suite_seed();
-    mpfi_t x, y, z;
-    mpfi_init2(x, 200), mpfi_init2(y, 200), mpfi_init2(z, 200);
-    for (int k = suite_times(20000); k > 0; --k) {
-        const ld_interval a = draw_interval(&seed), b = draw_interval(&seed);
-        const ld_interval made[] = {ld_interval_add(a, b), ld_interval_sub(a, b),
-                                    ld_interval_mul(a, b), ld_interval_div(a, b),
-                                    ld_interval_sqr(a),    ld_interval_sqrt(a)};
-        set_interval(x, a), set_interval(y, b);
-        for (int n = 0; n < 6; ++n) {
-            if (n == 3 && b.lo <= 0 && b.hi >= 0) continue;
-            if (n == 0) mpfi_add(z, x, y);
-            if (n == 1) mpfi_sub(z, x, y);
-            if (n == 2) mpfi_mul(z, x, y);
-            if (n == 3) mpfi_div(z, x, y);
-            if (n == 4) mpfi_sqr(z, x);
-            if (n == 5) mpfi_sqrt(z, x);
-            ck_assert_msg(mpfi_nan_p(z) || (mpfr_cmp_d(&z->left, made[n].lo) >= 0 &&
-                                            mpfr_cmp_d(&z->right, made[n].hi) <= 0),
-                          "operation %d of [%a, %a] and [%a, %a]: [%a, %a]", n, a.lo, a.hi, b.lo,
-                          b.hi, made[n].lo, made[n].hi);
-        }
-    }
-    mpfi_clear(x), mpfi_clear(y), mpfi_clear(z);
-}
-END_TEST
-
 SUITE_MAIN("certificates", true_certificates_hold, false_certificates_are_refused,
            trees_that_leave_out_cells_are_refused, trees_that_make_no_sense_are_refused,
-           maps_left_out_shrink_the_claim, operations_in_doubles_contain_those_of_mpfi,
-           bad_axes_cost_time_and_no_verdict, what_cannot_be_said_is_assumed,
-           points_of_what_is_assumed_are_checked, formulas_without_a_value_are_refused,
-           undefined_maps_ends_and_points_are_refused, parts_that_meet_are_all_proved,
-           round_surfaces_are_parted_about_their_centre, no_change_makes_a_false_statement_hold)
+           maps_left_out_shrink_the_claim, bad_axes_cost_time_and_no_verdict,
+           what_cannot_be_said_is_assumed, points_of_what_is_assumed_are_checked,
+           formulas_without_a_value_are_refused, undefined_maps_ends_and_points_are_refused,
+           parts_that_meet_are_all_proved, round_surfaces_are_parted_about_their_centre)

@@ -1,0 +1,116 @@
+/* SPDX-FileCopyrightText: The Impinge authors
+ * SPDX-License-Identifier: Apache-2.0 */
+#ifndef TESTS_SUPPORT_MADE_CERTIFICATE_H
+#define TESTS_SUPPORT_MADE_CERTIFICATE_H
+
+#include <check.h>
+#include <float.h>
+#include <math.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include <mpfi.h>
+
+#include "tests/support/suite.h"
+#include "tools/verify/walk.h"
+
+/* Certificates that are made here, and impinge-verify on them. */
+
+enum { BYTES_MAX = 8192, EFFORT = 200, EFFORT_OF_CHANGES = 24 };
+
+typedef struct certificate {
+    uint8_t bytes[BYTES_MAX];
+    size_t size; /* without the checksum */
+} certificate;
+
+static const char bowl[] =
+    "impinge certificate 1\nprogram impinge 0\nverdict contact\napart 0x1p-4\nfrom 0\nto 0.5\n"
+    "within 0.6 at 0.5\npoint 0 0 0 0\npoint 1 0 0 0\n"
+    "body bowl\nshape 1 formula\nu in [-1, 1]; v in [-1, 1]; u; v; 0.1*(u^2 + v^2)\nsurface 0 0\n"
+    "body lid\nshape 1 formula\nh = 1; u in [-1, 1]; v in [-1, 1]; u; v; h - 0.05*u*v\n"
+    "map 1 translate\nx; y; z - t\nsurface 1 1 2\ntrees\n";
+
+static const uint8_t bowl_tree[] = {0, 1, 0, 4, 0x80, 0, 5, 0, 0, 0, 0, 0x7f, 0xff, 0, 6, 7};
+
+/* Two balls that turn together about z, from which that is left out. */
+static const char balls[] =
+    "impinge certificate 1\nprogram impinge 0\nverdict clear\napart 0.25\nfrom 0\nto 1\n"
+    "body a\nshape 1 sphere\nu in [0, 2*pi]; v in [-pi/2, pi/2]; cos(v)*cos(u); cos(v)*sin(u); "
+    "sin(v)\nmap 1 rotate\nx*cos(2*t) - y*sin(2*t); x*sin(2*t) + y*cos(2*t); z\nsurface 0 0 1\n"
+    "body b\nshape 1 sphere\nu in [0, 2*pi]; v in [-pi/2, pi/2]; 4 + cos(v)*cos(u); cos(v)*sin(u); "
+    "sin(v)\nsurface 1 2 1\ntrees\n";
+
+static const uint8_t balls_tree[] = {0, 1, 1, 7};
+
+static inline certificate made(const char *text, const uint8_t *tree, size_t size)
+{
+    certificate c = {.size = strlen(text) + size};
+    memcpy(c.bytes, text, strlen(text));
+    memcpy(c.bytes + strlen(text), tree, size);
+    return c;
+}
+
+/* Two triangles over two others. */
+static const char roofs[] =
+    "impinge certificate 1\nprogram impinge 0\nverdict clear\napart 0.5\nfrom 0\nto 1\n"
+    "body floor\nshape 2 mesh\nu in [0, 1]; v in [0, 1]; u; v*(1 - u); 0\n"
+    "u in [0, 1]; v in [0, 1]; -u; v*(1 - u); 0\nsurface 0 0\n"
+    "body roof\nshape 2 mesh\nu in [0, 1]; v in [0, 1]; u; v*(1 - u); 1 + u\n"
+    "u in [0, 1]; v in [0, 1]; -u; v*(1 - u); 1 + u\nsurface 1 1\ntrees\n";
+
+static const uint8_t roofs_tree[] = {0, 1, 0, 1, 0, 1, 1, 1, 0, 0, 7, 2, 7, 7};
+
+static inline certificate roofs_made(void) { return made(roofs, roofs_tree, sizeof roofs_tree); }
+
+static inline certificate bowl_made(void) { return made(bowl, bowl_tree, sizeof bowl_tree); }
+
+static inline certificate balls_made(void) { return made(balls, balls_tree, sizeof balls_tree); }
+
+static inline bool verify_bytes(const uint8_t *bytes, size_t size, unsigned long effort,
+                                statement *s, char fault[1400], bool *assumes)
+{
+    FILE *file = fmemopen((void *)(uintptr_t)bytes, size, "rb");
+    ck_assert_ptr_nonnull(file);
+    input in;
+    input_begin(&in, file);
+    walk w = {.in = &in, .says = s, .effort = effort, .shares = 1};
+    bool good = statement_read(s, &in);
+    w.assumed = calloc(s->stage_count + 1, sizeof *w.assumed);
+    good = good && walk_points(&w) && walk_trees(&w);
+    *assumes = false;
+    for (size_t k = 0; k < s->stage_count; ++k) *assumes = *assumes || w.assumed[k];
+    memcpy(fault, in.fault, sizeof in.fault);
+    free(w.assumed);
+    fclose(file);
+    return good;
+}
+
+/* Verifies with the checksum that belongs to the bytes. */
+static inline bool verify(const certificate *c, unsigned long effort, statement *s,
+                          char fault[1400], bool *assumes)
+{
+    uint8_t all[BYTES_MAX + SHA256_BYTES];
+    sha256 h;
+    memcpy(all, c->bytes, c->size);
+    sha256_begin(&h);
+    sha256_add(&h, all, c->size);
+    sha256_end(&h, all + c->size);
+    return verify_bytes(all, c->size + SHA256_BYTES, effort, s, fault, assumes);
+}
+
+/* A shaft that turns in its bore: no axis parts more than a strip of them. */
+static inline certificate shaft_made(void)
+{
+    static const char shaft[] =
+        "impinge certificate 1\nprogram impinge 0\nverdict clear\napart 0.005\nfrom 0\nto 1\n"
+        "body shaft\nshape 1 cylinder\nu in [0, 2*pi]; v in [-1, 1]; 0.99*cos(u) + 0; "
+        "0.99*sin(u); v\nmap 1 rotate\nx*cos(t) - y*sin(t); x*sin(t) + y*cos(t); z\n"
+        "map 1 tilt\nx; 0.6*y - 0.8*z + 2; 0.8*y + 0.6*z\nsurface 0 0 1 2\n"
+        "body bore\nshape 1 cylinder\nu in [0, 2*pi]; v in [-1, 1]; cos(u); sin(u); v\n"
+        "map 1 tilt\nx; 0.6*y - 0.8*z + 2; 0.8*y + 0.6*z\nsurface 1 3 4\ntrees\n";
+    static const uint8_t tree[] = {0, 1, 0, 7};
+    return made(shaft, tree, sizeof tree);
+}
+
+#endif
