@@ -13,8 +13,8 @@
 #include "core/bounds/normal_field.h"
 #include "tests/support/meeting.h"
 
-/* Pairs of made-up nodes that are brought together, exactly within gamma_clear, at a chosen moment and
- * chosen points. Where parts of the judgement need it, long double. */
+/* Pairs of made-up nodes that are brought together, exactly within gamma_clear, at a chosen moment
+ * and chosen points. Where parts of the judgement need it, long double. */
 
 /* How the two lie: anyhow; touching each other like a ball and a table; one along the other, as two
  * layers of one shell, which only the field of normals parts. */

@@ -11,8 +11,8 @@
 #include "tests/support/compose.h"
 #include "tests/support/suite.h"
 
-/* Surfaces with a symmetry, under random chains of rigid maps, nearly as the symmetry permits, some as
- * far from rigid as they may be; and where their points are, in long double. */
+/* Surfaces with a symmetry, under random chains of rigid maps, nearly as the symmetry permits, some
+ * as far from rigid as they may be; and where their points are, in long double. */
 
 enum { CASES = 3000, POINTS = 6, MAPS = 3 };
 

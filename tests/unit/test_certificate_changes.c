@@ -4,8 +4,8 @@
 
 #include "tests/support/made_certificate.h"
 
-/* impinge-verify on thousands of changes of certificates: whatever is accepted must be true, as points
- * of the formulas show; and its arithmetic of doubles against MPFI. */
+/* impinge-verify on thousands of changes of certificates: whatever is accepted must be true, as
+ * points of the formulas show; and its arithmetic of doubles against MPFI. */
 
 /* --- Changes at random ------------------------------------------------------------------------ */
 
