@@ -230,6 +230,8 @@ core_survey = \
     core/survey/box_queue.c core/survey/box_queue.h \
     core/survey/survey.c \
     core/survey/survey_answer.c \
+    core/survey/survey_cost.c \
+    core/survey/survey_refine.c \
     core/survey/survey_box.c \
     core/survey/survey_internal.h \
     core/survey/survey_mark.c \

@@ -95,6 +95,7 @@ check_suites = \
     tests/unit/test_clocks \
     tests/unit/test_survey_samples \
     tests/unit/test_spreads \
+    tests/unit/test_survey_parts \
     tests/unit/test_threads \
     tests/unit/test_times \
     tests/unit/test_touchings

@@ -107,6 +107,8 @@ tools_cli = \
     tools/cli/catalogue.c tools/cli/catalogue.h \
     tools/cli/clearance.h \
     tools/cli/clearance_each.c \
+    tools/cli/clearance_survey.c \
+    tools/cli/clearance_tell.c tools/cli/clearance_tell.h \
     tools/cli/clearance_json.c \
     tools/cli/clearance_measure.c tools/cli/clearance_measure.h \
     tools/cli/clearance_table.c \
@@ -116,6 +118,7 @@ tools_cli = \
     tools/cli/crash.c tools/cli/crash.h \
     tools/cli/crew.c tools/cli/crew.h \
     tools/cli/each.c tools/cli/each.h \
+    tools/cli/each_parts.c \
     tools/cli/each_internal.h tools/cli/each_line.c \
     tools/cli/explain.c tools/cli/explain.h \
     tools/cli/file_lock.c tools/cli/file_lock.h \
@@ -144,8 +147,12 @@ tools_cli = \
     tools/cli/run_options.c tools/cli/run_options.h \
     tools/cli/scene_info.c tools/cli/scene_info.h \
     tools/cli/survey.c tools/cli/survey.h \
+    tools/cli/survey_answer.c tools/cli/survey_answer.h \
     tools/cli/survey_boxes.c tools/cli/survey_boxes.h \
+    tools/cli/survey_explain.c tools/cli/survey_explain.h \
     tools/cli/survey_parameters.c \
+    tools/cli/survey_parts.c tools/cli/survey_parts.h \
+    tools/cli/survey_parts_run.c \
     tools/cli/series.c tools/cli/series.h \
     tools/cli/standard_output.c tools/cli/standard_output.h \
     tools/cli/vec.h \

@@ -901,6 +901,8 @@ typedef struct imp_survey_options {
     void *sink_context;
     const char *resume; /* go on from what imp_survey_save returned; NULL: from the whole box. It is
                            read by imp_survey_new only */
+    const double *lo, *hi; /* a part of the box of values: a range of each parameter, within that of
+                              the scene; NULL: all. They are read by imp_survey_new only */
 } imp_survey_options;
 
 /* Sets the defaults. The caller sets how->struct_size before. */
@@ -916,8 +918,10 @@ static inline imp_survey_options imp_survey_options_default(void)
 
 /* Makes a survey. Options are those of a query: max_pairs, max_seconds and max_bytes hold for the
  * whole; `baseline` must be 0. `asked` is NULL for the earliest contact; else a clearance, of one
- * slice, without `each` and `within`. With `required` and `decide` it ends with any violation,
- * which is then the earliest at its values. `how` may be NULL. The scene must outlive it. NULL on
+ * slice, without `each` and `within`: a survey of two bodies, of a part of the values or over a
+ * part of time is one of its own, by `how` and `options`, and several threads may step such
+ * surveys of one scene at once. With `required` and `decide` it ends with any violation, which is
+ * then the earliest at its values. `how` may be NULL. The scene must outlive it. NULL on
  * error; the caller frees it. */
 IMP_EXPORT imp_survey *imp_survey_new(imp_scene *scene, const imp_options *options,
                                       const imp_clearance_options *asked,
@@ -931,6 +935,12 @@ IMP_EXPORT imp_code imp_survey_step(imp_survey *survey, uint64_t boxes, imp_erro
 /* Ends the running step soon, as UNDECIDED; if none is running, the next one. [any thread,
  * async-signal-safe] */
 IMP_EXPORT void imp_survey_cancel(imp_survey *survey);
+
+/* Makes the tolerances of a survey for a contact finer: gamma and gamma_clear (< 0: gamma / 2) may
+ * not be larger than now. It goes on at t_lower, the time before which nothing is near at any
+ * values; step it again. IMP_ERROR_USAGE: it is one of a clearance, or has ended with an error. */
+IMP_EXPORT imp_code imp_survey_refine(imp_survey *survey, double gamma, double gamma_clear,
+                                      imp_error *error);
 
 /* Returns how far a survey has come, as one line of text, from which another goes on: of the same
  * scene and options but for limits and the sink, on any machine. Its answer is then that of a
@@ -969,6 +979,22 @@ IMP_EXPORT imp_code imp_survey_get_state(const imp_survey *survey, imp_survey_st
 
 /* Copies the ranges of the worst box left, one of each parameter. False: none is left. */
 IMP_EXPORT bool imp_survey_worst(const imp_survey *survey, double *lo, double *hi);
+
+/* What the boxes of two bodies cost; those before `resume` are not counted. It grows at the end. */
+typedef struct imp_survey_cost {
+    uint32_t struct_size;
+    size_t body[2]; /* SIZE_MAX: all pairs of bodies that no parameter moves */
+    uint64_t boxes; /* asked about */
+    uint64_t pairs; /* tested by their queries */
+    double proved;  /* share of all values and times that is proved, from 0 to 1 */
+} imp_survey_cost;
+
+/* Fills *cost for pair of bodies `index`, below pairs_of_bodies. The caller sets struct_size. */
+IMP_EXPORT imp_code imp_survey_get_cost(const imp_survey *survey, size_t index,
+                                        imp_survey_cost *cost, imp_error *error);
+
+/* Copies how often a box was halved along each parameter. */
+IMP_EXPORT void imp_survey_cuts(const imp_survey *survey, uint64_t *cuts);
 
 /* Returns the time left from t until the first contact, the paper's h(t) = t0 - t. It is negative
  * when the contact is past, and INFINITY when there is none in the interval; where the result is

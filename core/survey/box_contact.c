@@ -11,7 +11,7 @@ static void prove_swept(imp_survey *s, survey_box *box, double t)
     double *range = box->range + 2 * s->pairs[box->pair].swept;
     const double lo = range[0], hi = range[1];
     const double part = t < hi ? box->share * ((t - lo) / (hi - lo)) : box->share;
-    s->proved += part;
+    survey_add_proved(s, box, part);
     box->share -= part;
     range[1] = t;
     survey_tell(s, box, s->options.t_start, s->options.t_end, IMP_VERDICT_CLEAR, s->gamma_clear);
@@ -27,7 +27,7 @@ static void prove_until(imp_survey *s, survey_box *box, double t, bool is_clear)
         prove_swept(s, box, t);
         return;
     }
-    s->proved += all > 0 ? box->share * ((t - box->key) / all) : box->share;
+    survey_add_proved(s, box, all > 0 ? box->share * ((t - box->key) / all) : box->share);
     survey_tell(s, box, box->key, t, IMP_VERDICT_CLEAR, s->gamma_clear);
     box->key = t;
 }

@@ -27,7 +27,7 @@ static void note_nearest(imp_survey *s, const survey_box *box, const imp_clearan
 static void settle(imp_survey *s, const survey_box *box)
 {
     if (box->key < s->settled) s->settled = box->key;
-    s->proved += box->share;
+    survey_add_proved(s, box, box->share);
     survey_tell(s, box, s->options.t_start, s->options.t_end, IMP_VERDICT_CLEAR, box->key);
 }
 

@@ -61,6 +61,25 @@ static imp_code check_asked(const imp_clearance_options *asked, imp_error *error
     return tolerances_check_clearance(asked, error);
 }
 
+/* Checks the ranges that are asked about; NULL stands for all. */
+static imp_code check_ranges(const imp_survey *s, imp_error *error)
+{
+    const imp_survey_options *how = &s->how;
+    const scene_parameters *all = scene_parameters_read(s->scene);
+    if (how->lo == NULL && how->hi == NULL) return IMP_SUCCESS;
+    if (how->lo == NULL || how->hi == NULL)
+        return error_set(error, IMP_ERROR_USAGE, "lo, hi: one is NULL, must be both or neither");
+    for (size_t k = 0; k < all->count; ++k) {
+        const scene_parameter *p = &all->at[k];
+        if (how->lo[k] >= p->lo && how->lo[k] <= how->hi[k] && how->hi[k] <= p->hi) continue;
+        return error_set(error, IMP_ERROR_USAGE,
+                         "lo, hi: parameter '%.80s' got [%.17g, %.17g], must be a range within "
+                         "[%.17g, %.17g]",
+                         p->name, how->lo[k], how->hi[k], p->lo, p->hi);
+    }
+    return IMP_SUCCESS;
+}
+
 /* --- Creation and destruction ----------------------------------------------------------------- */
 
 /* One block of numbers: ranges, the values of the incumbent and of that marked, the box in question
@@ -69,17 +88,19 @@ static bool make_room(imp_survey *s)
 {
     const size_t n = scene_parameters_read(s->scene)->count;
     double *block = calloc(10 * n + 1, sizeof *block);
-    if (block == NULL) return false;
+    s->cuts = calloc(n + 1, sizeof *s->cuts);
+    s->lo = block; /* freed in any case */
+    if (block == NULL || s->cuts == NULL) return false;
     s->count = n;
-    s->lo = block;
     s->hi = block + n;
     s->best.values = block + 2 * n;
     for (int k = 0; k < 3; ++k) s->shift[k] = block + (3 + (size_t)k) * n;
     s->at = block + 6 * n; /* 3 n numbers: middle, lo and hi of the box that is asked about */
     s->mark.best.values = block + 9 * n;
     for (size_t k = 0; k < n; ++k) {
-        s->lo[k] = scene_parameters_read(s->scene)->at[k].lo;
-        s->hi[k] = scene_parameters_read(s->scene)->at[k].hi;
+        const scene_parameter *p = &scene_parameters_read(s->scene)->at[k];
+        s->lo[k] = s->how.lo != NULL ? s->how.lo[k] : p->lo;
+        s->hi[k] = s->how.hi != NULL ? s->how.hi[k] : p->hi;
     }
     return true;
 }
@@ -121,11 +142,13 @@ FP_APART static imp_code fill(imp_survey *s, imp_scene *scene, const imp_options
             examined_times_find(scene, s->options.t_start, s->options.t_end, &s->examined, error);
     if (code == IMP_SUCCESS) code = check_asked(&s->asked, error);
     if (code == IMP_SUCCESS) code = check_bodies(scene, s->how.body, error);
+    if (code == IMP_SUCCESS) code = check_ranges(s, error);
     if (code == IMP_SUCCESS && !make_room(s)) code = error_set_memory(error);
     if (code != IMP_SUCCESS) return code;
     set_aims(s);
     code = survey_find_pairs(s, error);
-    if (code == IMP_SUCCESS) code = survey_add_roots(s, error);
+    if (code == IMP_SUCCESS)
+        code = survey_add_roots(s, s->is_distance ? 0 : s->options.t_start, error);
     if (code == IMP_SUCCESS) code = survey_choose_swept(s, error);
     return code == IMP_SUCCESS && s->how.resume != NULL ? survey_load(s, s->how.resume, error)
                                                         : code;
@@ -156,6 +179,7 @@ void imp_survey_free(imp_survey *s)
     free(s->pairs);
     free(s->extents);
     free(s->first);
+    free(s->cuts);
     free(s->lo);
     scene_end_use(s->scene);
     free(s);

@@ -9,8 +9,7 @@
 #include "core/base/status.h"
 #include "core/survey/survey_internal.h"
 
-/* Returns the time before which nothing is near at any values. */
-static double t_lower_of(const imp_survey *s)
+double survey_time_lower(const imp_survey *s)
 {
     const survey_box *first = box_queue_first(&s->queue);
     double t = s->best.t < s->options.t_end ? s->best.t : s->options.t_end;
@@ -26,7 +25,7 @@ FP_APART static imp_result result_of(const imp_survey *s)
     r.struct_size = (uint32_t)sizeof r;
     r.verdict = s->verdict;
     r.reason = s->reason;
-    r.t_lower = t_lower_of(s); /* with `any`, another contact may be earlier than t */
+    r.t_lower = survey_time_lower(s); /* with `any`, another contact may be earlier than t */
     r.gamma = s->gamma;
     r.gamma_clear = s->gamma_clear;
     r.stats = s->stats;

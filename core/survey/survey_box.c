@@ -29,6 +29,12 @@ void box_keep_values(imp_survey *s, const survey_box *box, double *t)
     *t = s->options.t_start;
 }
 
+void survey_add_proved(imp_survey *s, const survey_box *box, double share)
+{
+    s->proved += share;
+    s->pairs[box->pair].proved += share;
+}
+
 /* Chooses the parameter that shifts most; where several have no bound, the one whose range is
  * widest beside that of the scene. Returns s->count if no range can be halved. */
 static size_t choose_split(const imp_survey *s, const survey_view *view)
@@ -52,6 +58,7 @@ imp_code box_split(imp_survey *s, const survey_box *box, const survey_view *view
 {
     const size_t j = choose_split(s, view), size = sizeof *box + 2 * s->count * sizeof *box->range;
     *done = j < s->count;
+    if (*done) s->cuts[j] += 1;
     for (int side = 0; *done && side < 2; ++side) {
         survey_box *half = malloc(size);
         if (half == NULL) return error_set_memory(error);
@@ -78,9 +85,12 @@ imp_code survey_ask(imp_survey *s, survey_box *box, imp_error *error)
     imp_code code = survey_mark_take(s, box, error);
     if (code != IMP_SUCCESS) return free(box), code;
     s->boxes += 1;
+    s->pairs[box->pair].boxes += 1;
     s->key_asked = s->is_distance ? s->options.t_start : box->key;
+    const uint64_t before = s->stats.pairs;
     code = s->is_distance ? box_ask_distance(s, box, &rest, error)
                           : box_ask_contact(s, box, &rest, error);
+    s->pairs[box->pair].pairs += s->stats.pairs - before;
     if (!box_is_limit(s->reason)) {
         survey_mark_drop(s);
         if (code == IMP_SUCCESS) code = survey_flush(s, error);

@@ -39,7 +39,8 @@
  *
  * survey.c steps, survey_box.c and box_*.c decide one box (box_question.h), survey_measure.c bounds
  * how its parameters shift bodies, survey_pairs.c finds which bodies which parameters move,
- * survey_mark.c tells boxes, survey_state.c saves and loads, survey_answer.c reads. */
+ * survey_mark.c tells boxes, survey_state.c saves and loads, survey_answer.c and survey_cost.c
+ * read. */
 
 #define SURVEY_ALL_BODIES SIZE_MAX
 
@@ -47,8 +48,10 @@
  * body[0] is SURVEY_ALL_BODIES. */
 typedef struct survey_pair {
     size_t body[2];
-    size_t left_out; /* last maps that both share */
-    size_t swept;    /* the parameter that queries take for their time; SIZE_MAX: none */
+    size_t left_out;       /* last maps that both share */
+    size_t swept;          /* the parameter that queries take for their time; SIZE_MAX: none */
+    uint64_t boxes, pairs; /* asked about; tested by their queries */
+    double proved;         /* share */
 } survey_pair;
 
 /* The contact, or the nearest points, known. */
@@ -102,6 +105,7 @@ struct imp_survey {
     bool told_failed; /* no memory for one */
     double settled;   /* least distance proved of boxes that are done with; length */
     double proved;    /* shares of all pairs together */
+    uint64_t *cuts;   /* of boxes along each parameter */
     imp_stats stats;
     imp_verdict verdict;
     imp_reason reason;
@@ -135,8 +139,14 @@ imp_code survey_spread_make(imp_survey *s, const survey_box *box, const survey_v
                             query_spread *to, imp_error *error);
 void survey_spread_clear(query_spread *spread);
 
-/* Adds the first box of each pair. */
-imp_code survey_add_roots(imp_survey *s, imp_error *error);
+/* Adds the first box of each pair, with a key that is proved of all values. */
+imp_code survey_add_roots(imp_survey *s, double key, imp_error *error);
+
+/* Returns the time before which nothing is near at any values. */
+double survey_time_lower(const imp_survey *s);
+
+/* Adds a share of the box's pair that is proved. */
+void survey_add_proved(imp_survey *s, const survey_box *box, double share);
 
 /* Decides a box, which it takes over, or divides it; s->reason becomes other than RUNNING where
  * that ends the survey. */

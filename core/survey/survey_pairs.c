@@ -99,10 +99,19 @@ static imp_code make_room_for_extents(imp_survey *s, imp_error *error)
     return s->extents != NULL ? IMP_SUCCESS : error_set_memory(error);
 }
 
+/* Whether the survey asks about the body: of two that it is asked about alone, no other needs an
+ * extent. */
+static bool is_in_question(const imp_survey *s, size_t body)
+{
+    const size_t *of = s->how.body;
+    return of[0] == SIZE_MAX || of[0] == body || of[1] == body;
+}
+
 static imp_code find_extents(imp_survey *s, double t_start, double t_end, imp_error *error)
 {
     const value_box whole = {s->count, s->lo, s->hi, s->lo, t_start, t_end};
-    for (size_t b = 0; b < scene_body_count(s->scene); ++b)
+    for (size_t b = 0; b < scene_body_count(s->scene); ++b) {
+        if (!is_in_question(s, b)) continue;
         for (size_t k = 0; k < scene_surface_count(s->scene, b); ++k) {
             const surface *of = scene_surface(s->scene, b, k);
             const imp_status status = surface_extent_find(of, &whole, &s->extents[s->first[b] + k]);
@@ -110,6 +119,7 @@ static imp_code find_extents(imp_survey *s, double t_start, double t_end, imp_er
             surface_fault(of, error, ": %s", surface_status_message(of, status).text);
             return surface_set_code(status, error);
         }
+    }
     return IMP_SUCCESS;
 }
 
@@ -119,12 +129,12 @@ imp_code survey_find_pairs(imp_survey *s, imp_error *error)
     return code == IMP_SUCCESS ? make_room_for_extents(s, error) : code;
 }
 
-imp_code survey_add_roots(imp_survey *s, imp_error *error)
+imp_code survey_add_roots(imp_survey *s, double key, imp_error *error)
 {
     for (size_t k = 0; k < s->pair_count; ++k) {
         survey_box *box = malloc(sizeof *box + 2 * s->count * sizeof *box->range);
         if (box == NULL) return error_set_memory(error);
-        box->key = s->is_distance ? 0 : s->options.t_start;
+        box->key = key;
         box->number = s->made++;
         box->pair = k;
         box->share = 1;

@@ -162,9 +162,10 @@ in_parts() {
         "$IMPINGE" solve arms.json --parameter a=1
     fails 4 '/parameters/b: got the range [1, 0]' "$IMPINGE" solve arms.json --parameter b=1,0
     fails 4 'got "x", which is not a parameter' "$IMPINGE" pair 'sphere ! rotate axis=0,0,1 rate=1 clock=x' sphere
-    for option in --each '--refine 1e-2,1e-3' '--proof p' --explain; do
+    fails 2 'does not go with the parameters that the scene has' "$IMPINGE" solve arms.json --proof p
+    for option in --each '--refine 1e-2,1e-3'; do
         # shellcheck disable=SC2086 # an option and its value
-        fails 2 'does not go with the parameters that the scene has' "$IMPINGE" solve arms.json $option
+        fails 2 'and --boxes exclude each other' "$IMPINGE" solve arms.json $option --boxes p
     done
     [ ! -e p ]
 }
@@ -218,4 +219,115 @@ in_parts() {
     run ! --separate-stderr "$IMPINGE" simulate heavy.json -o out.json
     [[ $stderr == *parameter* ]]
     [ ! -e out.json ]
+}
+
+# --- Several answers --------------------------------------------------------------------------------
+
+# A third body that no parameter moves.
+three() {
+    arms "$@" | jq -c '.bodies |= [.[0], {name: "far", surfaces: [{type: "sphere", radius: 0.3,
+        center: [1,0,10]}]}, .[1]]'
+}
+
+@test "solve --each answers each pair for all values, in order of time, whoever counts threads" {
+    three 2.55 >three.json
+    run -0 "$IMPINGE" solve three.json --each --json
+    valid result
+    jq -es 'map(.bodies) == [["one","two"],["one","far"],["far","two"]] and
+        map(.verdict) == ["contact","clear","clear"] and
+        (.[0].parameters | keys == ["a","b"]) and all(.boxes > 0)' <<<"$output"
+    local many=$output
+    run -0 "$IMPINGE" solve three.json --each --json --threads 1
+    cmp <(jq 'del(.stats)' <<<"$many") <(jq 'del(.stats)' <<<"$output")
+    run -1 "$IMPINGE" solve three.json --each --exit-code
+    [[ ${lines[0]} == 'contact at t = 0: one, two, at a = '*', b = '* ]]
+    [ "${lines[1]}" = 'clear from t = 0 to 1: one, far' ]
+    # A pair's answer is that of the two bodies alone.
+    jq -c '.bodies |= [.[0], .[2]]' three.json >two.json
+    run -0 "$IMPINGE" solve two.json --json
+    cmp <(jq -s '.[0] | del(.stats, .bodies, .at_rest, .scene)' <<<"$many") <(jq 'del(.stats, .scene)' <<<"$output")
+}
+
+@test "solve --each counts pairs that a limit left out, or lists them" {
+    three >three.json
+    run -3 "$IMPINGE" solve three.json --each --max-boxes 1 --json
+    valid result
+    jq -es '.[0].verdict == "undecided" and .[0].proved < 1 and .[0].worst != null' <<<"$output"
+    run -3 "$IMPINGE" solve three.json --each --max-seconds 1e-9 --json
+    valid result
+    jq -es '.[-1].not_listed.not_examined == 3' <<<"$output"
+    run -3 "$IMPINGE" solve three.json --each --max-seconds 1e-9 --list-all --json
+    jq -es 'length == 3 and all(.verdict == "undecided")' <<<"$output"
+}
+
+@test "clearance --each brackets each pair, and leaves out those beyond --within" {
+    three >three.json
+    run -0 "$IMPINGE" clearance three.json --each --tolerance 0.1 --json
+    valid clearance
+    json '.pairs | length == 3 and .[0].bodies == ["one","two"] and .[0].lower <= 0.1 and
+        .[0].upper >= 0.1 and (.[0].parameters | keys == ["a","b"]) and .[1].lower > 9'
+    run -0 "$IMPINGE" clearance three.json --each --tolerance 0.1
+    [[ $output == *'one, two, at a = '* ]]
+    run -0 "$IMPINGE" clearance three.json --each --within 1 --tolerance 0.1 --json
+    valid clearance
+    json '.beyond == 2 and (.pairs | length == 1) and .lower <= 0.1'
+    run -0 "$IMPINGE" clearance three.json --each --within 0.05 --json
+    valid clearance
+    json '.beyond == 3 and .lower == 0.05 and .pairs == []'
+    run -1 "$IMPINGE" clearance three.json --each --require 0.12 --json
+    valid clearance
+    json '.verdict == "violated" and (.pairs | map(.verdict) | sort == ["holds","holds","violated"])'
+    run -3 "$IMPINGE" clearance three.json --each --max-seconds 1e-9 --json
+    valid clearance
+    json '.not_examined == 3 and .lower == 0'
+}
+
+@test "clearance --profile slices time, or the range of a parameter" {
+    arms >arms.json
+    run -0 "$IMPINGE" clearance arms.json --profile 4 --over b --tolerance 0.1
+    [ "${lines[0]}" = 'from,to,lower,upper,t,verdict,a,b,at a,at b' ]
+    [ "${#lines[@]}" -eq 5 ]
+    # Each value lies in its slice; the outer slices are farther apart.
+    awk -F, 'NR > 1 && !($1 <= $10 && $10 <= $2 && $3 <= $4) { exit 1 }
+        NR == 2 || NR == 5 { if (!($3 > 0.2)) exit 1 } NR == 3 && !($3 < 0.1 && $4 > 0.1) { exit 1 }' <<<"$output"
+    run -0 "$IMPINGE" clearance arms.json --profile 2 --over a --tolerance 0.1 --require 0.05 --json
+    valid clearance
+    jq -es 'length == 3 and .[0].over == {a: [-1, 0]} and .[1].over.a == [0, 1] and
+        .[0].verdict == "holds" and .[2].slices == .[:2]' <<<"$output"
+    run -0 "$IMPINGE" clearance arms.json --profile 2 --tolerance 0.2 --json
+    valid clearance
+    jq -es '.[0].t0 == 0 and .[1].t1 == 1 and (.[0] | has("over") | not)' <<<"$output"
+    run -3 "$IMPINGE" clearance arms.json --profile 4 --tolerance 0.1 --max-pairs 30000
+    [ "${lines[-1]}" = '0.5,1,0,,,,,,,' ]
+    fails 2 "the scene has no parameter 'c'" "$IMPINGE" clearance arms.json --profile 4 --over c
+    fails 2 'belongs to --profile' "$IMPINGE" clearance arms.json --over b
+    scene >plain.json
+    fails 2 'the scene has no parameters' "$IMPINGE" clearance plain.json --profile 2 --over b
+}
+
+@test "solve --refine answers for all values at each gamma" {
+    arms 2.55 >arms.json
+    run -0 "$IMPINGE" solve arms.json --refine 1e-1,1e-2,1e-3 --json
+    valid result
+    jq -es 'map(.gamma) == [0.1, 0.01, 0.001] and all(.verdict == "contact" and .gap <= .gamma)' <<<"$output"
+    arms >arms.json # 0.1 apart: a contact at the first only
+    run -0 "$IMPINGE" solve arms.json --refine 0.15,0.05 --json
+    jq -es 'map(.verdict) == ["contact", "clear"]' <<<"$output"
+    run -3 "$IMPINGE" solve arms.json --refine 0.05,0.01 --max-boxes 1 --json
+    jq -es 'map(.verdict) == ["undecided"]' <<<"$output"
+}
+
+@test "--explain tells where the boxes went, and what is undecided gets advice" {
+    three >three.json
+    run -0 "$IMPINGE" solve three.json --explain --json
+    valid result
+    json '.survey.bodies[0].bodies == ["one","two"] and (.survey.halved | .a + .b > 0)'
+    json '.survey.bodies | map(.boxes) | add'
+    json '(.survey.bodies | map(.boxes) | add) == .boxes and (.survey.bodies | all(.proved >= 0.999999))'
+    run -0 "$IMPINGE" solve three.json --explain
+    [[ $output == *'  where '*'one, two'*'  halved   a: '* ]]
+    run -3 "$IMPINGE" solve three.json --max-boxes 3 --json
+    valid result
+    json '.advice | contains("boxes were halved along")'
+    json 'has("survey") | not'
 }

@@ -26,6 +26,7 @@ static imp_clearance_options asked_none, asked_good, asked_wild;
 static imp_clearance answer_none, answer_good, answer_wild;
 static imp_survey_options how_none, how_good, how_wild;
 static imp_survey_state state_none, state_good, state_wild;
+static imp_survey_cost cost_none, cost_good, cost_wild;
 static imp_scene_parameter_info parameter_place;
 static imp_argument argument_none;
 static imp_instance instance_none;
@@ -42,6 +43,7 @@ static imp_stage stage_place;
 static imp_type_info info_place;
 static const char *text_place;
 static size_t size_place[ROOM];
+static uint64_t cut_place[ROOM];
 
 static void ignore_finding(void *context, const char *check, imp_finding finding, const char *text)
 {
@@ -76,6 +78,7 @@ static imp_survey_options *const of_imp_survey_options_p[] = {NULL, &how_none, &
                                                               &how_wild};
 static imp_survey_state *const of_imp_survey_state_p[] = {NULL, &state_none, &state_good,
                                                           &state_wild};
+static imp_survey_cost *const of_imp_survey_cost_p[] = {NULL, &cost_none, &cost_good, &cost_wild};
 static imp_scene_parameter_info *const of_imp_scene_parameter_info_p[] = {NULL, &parameter_place};
 static imp_argument *const of_imp_argument_p[] = {NULL, &argument_none};
 static imp_instance *const of_imp_instance_p[] = {NULL, &instance_none};
@@ -94,6 +97,7 @@ static const char *const of_char_p[] = {NULL, "", "sphere", "{\"bodies\": []}"};
 static void *const of_char_p_p[] = {NULL, &text_place}; /* of const char or char */
 static double *const of_double_p[] = {NULL, numbers};
 static size_t *const of_size_t_p[] = {NULL, size_place};
+static uint64_t *const of_uint64_t_p[] = {NULL, cut_place};
 static void *const of_void_p[] = {NULL, numbers};
 static const imp_proof_sink of_imp_proof_sink[] = {NULL, ignore_bytes};
 static const imp_go_on of_imp_go_on[] = {NULL, never_go_on};
@@ -182,6 +186,7 @@ static void make_places(void)
     MAKE_SIZED(imp_clearance, answer);
     MAKE_SIZED(imp_survey_options, how);
     MAKE_SIZED(imp_survey_state, state);
+    MAKE_SIZED(imp_survey_cost, cost);
     instance_none = (imp_instance){NULL, NULL, NULL};
 }
 

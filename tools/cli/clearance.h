@@ -7,6 +7,7 @@
 #include <jansson.h>
 
 #include "tools/cli/message.h"
+#include "tools/cli/survey_parts.h"
 
 /* Minimum distances, for people and for programs: tools/schema/clearance.schema.json. */
 
@@ -21,6 +22,7 @@ typedef struct clearance_table {
     const imp_scene *scene;
     const clearance_advice *advice; /* about pairs of bodies, in the order of the scene */
     size_t advice_count;
+    const survey_parts *survey;   /* about all values of parameters; NULL: there are none */
     const imp_clearance *answers; /* NULL: they are read from */
     const imp_query *query;       /* this, */
     imp_reason ended;             /* reason of unfinished answers; RUNNING: they continue */
@@ -87,11 +89,11 @@ void clearance_print(const imp_scene *scene, const imp_clearance *answer, double
 void clearance_print_pairs(const clearance_table *table);
 
 /* Print the CSV header, and one line for each slice. */
-void clearance_print_csv_head(void);
-void clearance_print_csv(const imp_scene *scene, const imp_clearance *slice);
+void clearance_print_csv_head(const clearance_table *table);
+void clearance_print_csv(const clearance_table *table, size_t k, const imp_clearance *slice);
 
 json_t *clearance_json(const imp_scene *scene, const imp_clearance *answer);
-json_t *clearance_slice_json(const imp_scene *scene, const imp_clearance *slice);
+json_t *clearance_slice_json(const clearance_table *table, size_t k, const imp_clearance *slice);
 /* Prints the object, and frees it, on one line, with the answers as its last key: "slices", or
  * "pairs" of bodies. Answers are made and printed one by one to save memory. A signal ends the
  * list. */

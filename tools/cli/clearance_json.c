@@ -80,8 +80,28 @@ json_t *clearance_json(const imp_scene *scene, const imp_clearance *r)
     return checked(object, failed);
 }
 
-json_t *clearance_slice_json(const imp_scene *scene, const imp_clearance *r)
+/* Adds what answer k of a survey says of values: all of it, but nothing where it is not there. */
+static int set_values(json_t *object, const clearance_table *table, size_t k)
 {
+    if (table->survey == NULL || table->survey->answers[k].state.struct_size == 0) return 0;
+    return survey_parts_set_json(object, table->survey, k);
+}
+
+/* Adds the range of the parameter that is sliced. */
+static int set_over(json_t *object, const clearance_table *table, size_t k)
+{
+    imp_scene_parameter_info info;
+    if (table->survey == NULL || !imp_scene_parameter(table->scene, table->survey->over, &info))
+        return 0;
+    const value_range slice = survey_parts_slice(table->survey, k);
+    json_t *over = json_object();
+    int failed = over == NULL || set(over, info.name, result_times_json(slice.lo, slice.hi)) != 0;
+    return set(object, "over", over) != 0 || failed;
+}
+
+json_t *clearance_slice_json(const clearance_table *table, size_t k, const imp_clearance *r)
+{
+    const imp_scene *scene = table->scene;
     json_t *object =
         json_pack("{s:o, s:o, s:o, s:o, s:o}", "t0", output_json_number(r->t_start), "t1",
                   output_json_number(r->t_end), "lower", output_json_number(r->lower), "upper",
@@ -92,6 +112,7 @@ json_t *clearance_slice_json(const imp_scene *scene, const imp_clearance *r)
         failed |= set(object, "verdict", json_string(clearance_verdict_name(r->verdict)));
     if (r->has_witness)
         failed |= set(object, "bodies", pair_json(scene, (size_t[]){r->a.body, r->b.body}));
+    failed |= set_over(object, table, k) | set_values(object, table, k);
     return checked(object, failed);
 }
 
@@ -99,7 +120,10 @@ static json_t *answer_json(const clearance_table *table, const imp_clearance *an
 {
     json_t *object = clearance_json(table->scene, answer);
     const char *advice = clearance_table_advice(table, answer);
-    return checked(object, object == NULL || !result_set_advice(object, advice));
+    int failed = object == NULL || !result_set_advice(object, advice);
+    if (!failed && table->survey != NULL && answer->body[0] != SIZE_MAX)
+        failed = set_values(object, table, survey_parts_find(table->survey, answer->body));
+    return checked(object, failed);
 }
 
 exit_status clearance_print_json(json_t *object, const clearance_table *table, bool slices,
@@ -112,7 +136,7 @@ exit_status clearance_print_json(json_t *object, const clearance_table *table, b
     free(line);
     for (size_t k = 0; k < table->count && !interrupt_came(); ++k) {
         const imp_clearance answer = clearance_table_get(table, k);
-        line = output_json_line(slices ? clearance_slice_json(table->scene, &answer)
+        line = output_json_line(slices ? clearance_slice_json(table, k, &answer)
                                        : answer_json(table, &answer));
         if (line == NULL) return output_line(line, verb);
         printf("%s%s", k > 0 ? "," : "", line);

@@ -7,12 +7,11 @@
 
 #include "core/common/clock.h"
 #include "tools/cli/clearance_measure.h"
-#include "tools/cli/explain.h"
+#include "tools/cli/clearance_tell.h"
 #include "tools/cli/interrupt.h"
 #include "tools/cli/output.h"
 #include "tools/cli/proof_output.h"
 #include "tools/cli/query.h"
-#include "tools/cli/result.h"
 #include "tools/cli/verbs.h"
 
 /* Runs the query of `impinge clearance` and prints its answers, slices as soon as they are
@@ -21,36 +20,13 @@
 /* Pairs between two checks for finished answers: some milliseconds. */
 #define STEP_PAIRS 2048
 
-typedef struct measuring {
-    const arguments *args;
-    const imp_scene *scene;
-    imp_query *query;
-    imp_options options;
-    imp_clearance_options asked;
-    bool json, each, profile;
-    double until;    /* seconds of the clock: the limit of time; INFINITY: none */
-    double printing; /* seconds that slices have taken to print */
-    clearance_table table;
-    size_t beyond, not_examined; /* pairs of bodies of --each */
-    explanation why;             /* of one search that is undecided; else empty */
-    imp_stats stats;
-} measuring;
-
 /* --- While it runs ---------------------------------------------------------------------------- */
-
-static exit_status tell_slice(const measuring *m, const imp_clearance *slice)
-{
-    if (m->json) return output_json(clearance_slice_json(m->scene, slice), m->args->verb->name);
-    clearance_print_csv(m->scene, slice);
-    return EXIT_ANSWERED;
-}
 
 /* Adds the next answer to the table. */
 static exit_status take_answer(measuring *m)
 {
     m->table.count += 1;
-    const imp_clearance answer = clearance_table_get(&m->table, m->table.count - 1);
-    return m->profile ? tell_slice(m, &answer) : EXIT_ANSWERED;
+    return m->profile ? clearance_tell_slice(m) : EXIT_ANSWERED;
 }
 
 /* Whether the answer is final: it is not running, and no limit has ended it. */
@@ -128,64 +104,6 @@ static exit_status run_query(measuring *m)
 
 /* --- At the end ------------------------------------------------------------------------------- */
 
-/* Returns the summary without any answer: with --each, if all pairs are ignored. */
-static imp_clearance nothing(const measuring *m)
-{
-    const double required = m->asked.required;
-    return (imp_clearance){.reason = IMP_REASON_NO_PAIRS,
-                           .verdict = required > 0 ? IMP_REQUIREMENT_HOLDS : IMP_REQUIREMENT_NONE,
-                           .t_start = m->options.t_start,
-                           .t_end = m->options.t_end,
-                           .required = required,
-                           .body = {SIZE_MAX, SIZE_MAX},
-                           .lower = INFINITY,
-                           .upper = INFINITY,
-                           .t = NAN,
-                           .t_violated = NAN};
-}
-
-static json_t *whole_json(const measuring *m, const imp_clearance *all)
-{
-    json_t *object = clearance_json(m->scene, all);
-    int failed = json_object_set_new(object, "scene", query_scene_json(m->args));
-    if (arguments_option(m->args, "within") != NULL)
-        failed |= json_object_set_new(object, "beyond", json_integer((json_int_t)m->beyond));
-    if (m->not_examined > 0)
-        failed |=
-            json_object_set_new(object, "not_examined", json_integer((json_int_t)m->not_examined));
-    if (object != NULL) failed |= !result_set_warnings(object, m->scene);
-    if (object != NULL) failed |= !explain_set_json(object, m->scene, &m->why);
-    if (!failed) return object;
-    json_decref(object);
-    return NULL;
-}
-
-static exit_status print(const measuring *m, const imp_clearance *all)
-{
-    const char *speaker = m->args->verb->name;
-    if (m->json && (m->profile || m->each))
-        return clearance_print_json(whole_json(m, all), &m->table, m->profile, speaker);
-    if (m->json) return output_json(whole_json(m, all), speaker);
-    if (m->profile) return EXIT_ANSWERED;
-    clearance_print(m->scene, all, m->options.gamma);
-    explain_print(m->scene, &m->why);
-    if (m->each && m->table.count > 0) clearance_print_pairs(&m->table);
-    if (m->beyond > 0)
-        printf("never within %.10g: %zu pairs of bodies\n", m->asked.within, m->beyond);
-    if (m->not_examined > 0) printf("not examined: %zu pairs of bodies\n", m->not_examined);
-    return output_flush(speaker);
-}
-
-/* Prints the answers. `shown` is the table, or the table with one more answer, for pairs that are
- * not listed. */
-static exit_status conclude(const measuring *m, const clearance_table *shown)
-{
-    imp_clearance all = shown->count > 0 ? clearance_summary(shown) : nothing(m);
-    all.stats = m->stats;
-    const exit_status status = print(m, &all);
-    return status != EXIT_ANSWERED ? status : clearance_status(&all);
-}
-
 static exit_status measure_each(measuring *m)
 {
     imp_error error = {0};
@@ -205,8 +123,8 @@ static exit_status measure_each(measuring *m)
     m->table.advice = found.advice, m->table.advice_count = found.advice_count;
     clearance_table shown = m->table;
     shown.count += found.has_rest;
-    const exit_status status =
-        code == IMP_SUCCESS ? conclude(m, &shown) : complain_of(&error, m->args->verb->name);
+    const exit_status status = code == IMP_SUCCESS ? clearance_conclude(m, &shown)
+                                                   : complain_of(&error, m->args->verb->name);
     clearance_answers_free(&found);
     return status;
 }
@@ -214,7 +132,8 @@ static exit_status measure_each(measuring *m)
 /* Keeps the advice about a search that a limit ended. */
 static exit_status explain(measuring *m)
 {
-    const imp_clearance all = m->table.count > 0 ? clearance_summary(&m->table) : nothing(m);
+    const imp_clearance all =
+        m->table.count > 0 ? clearance_summary(&m->table) : clearance_of_nothing(m);
     const explain_goal goal = explain_goal_of(all.verdict);
     if (!clearance_is_undecided(&all)) return EXIT_ANSWERED;
     return explain_query(m->query, all.reason, goal, &m->why)
@@ -224,12 +143,12 @@ static exit_status explain(measuring *m)
 
 static exit_status measure(measuring *m)
 {
-    if (m->profile && !m->json) clearance_print_csv_head();
+    if (m->profile && !m->json) clearance_print_csv_head(&m->table);
     exit_status status = run_query(m);
     m->stats = imp_query_result(m->query).stats;
     if (status == EXIT_ANSWERED) status = proof_output_write(m->query, m->scene, m->args);
     if (status == EXIT_ANSWERED) status = explain(m);
-    if (status == EXIT_ANSWERED) status = conclude(m, &m->table);
+    if (status == EXIT_ANSWERED) status = clearance_conclude(m, &m->table);
     explain_free(&m->why);
     return status;
 }

@@ -11,4 +11,8 @@
 exit_status clearance_measure(imp_scene *scene, const imp_clearance_options *asked,
                               const arguments *args);
 
+/* Answers --each and --profile of a scene with parameters: about all their values. */
+exit_status clearance_survey(imp_scene *scene, const imp_clearance_options *asked,
+                             const arguments *args);
+
 #endif

@@ -106,13 +106,14 @@ void clearance_print_pairs(const clearance_table *table)
                output_number_upper(r->upper).text, text);
         if (is_required) format_verdict(r, text);
         if (is_required) printf("%-*s  ", width, text);
-        printf("%s, %s\n", imp_scene_body_name(table->scene, r->body[0]),
+        printf("%s, %s", imp_scene_body_name(table->scene, r->body[0]),
                imp_scene_body_name(table->scene, r->body[1]));
+        if (table->survey != NULL)
+            survey_parts_print_values(table->survey, survey_parts_find(table->survey, r->body));
+        putchar('\n');
     }
     print_advice(table);
 }
-
-void clearance_print_csv_head(void) { puts("t0,t1,lower,upper,t,verdict,a,b"); }
 
 /* Prints the number, or an empty field for NaN. */
 static void print_field(double number)
@@ -121,16 +122,16 @@ static void print_field(double number)
     putchar(',');
 }
 
-/* Prints a name as RFC 4180 says: quoted if it contains a comma, a quote or a line break; quotes
- * are doubled. */
-static void print_name(const char *name)
+/* Prints a name behind `before`, which needs no quotes, as RFC 4180 says: quoted if it contains a
+ * comma, a quote or a line break; quotes are doubled. */
+static void print_name(const char *before, const char *name)
 {
     putchar(',');
     if (strpbrk(name, ",\"\r\n") == NULL) {
-        fputs(name, stdout);
+        printf("%s%s", before, name);
         return;
     }
-    putchar('"');
+    printf("\"%s", before);
     for (; *name != '\0'; ++name) {
         if (*name == '"') putchar('"');
         putchar(*name);
@@ -138,14 +139,44 @@ static void print_name(const char *name)
     putchar('"');
 }
 
-void clearance_print_csv(const imp_scene *scene, const imp_clearance *r)
+static bool is_over_parameter(const clearance_table *table)
 {
-    const double field[] = {r->t_start, r->t_end, r->lower, r->upper, r->t};
+    return table->survey != NULL && table->survey->over != SIZE_MAX;
+}
+
+/* A column for the value of each parameter comes last: "at NAME", since names may be those of
+ * other columns. */
+void clearance_print_csv_head(const clearance_table *table)
+{
+    imp_scene_parameter_info info;
+    printf("%s,lower,upper,t,verdict,a,b", is_over_parameter(table) ? "from,to" : "t0,t1");
+    for (size_t j = 0; table->survey != NULL && imp_scene_parameter(table->scene, j, &info); ++j)
+        print_name("at ", info.name);
+    putchar('\n');
+}
+
+static void print_csv_values(const clearance_table *table, size_t k, bool has_witness)
+{
+    const size_t count = imp_scene_parameter_count(table->scene);
+    for (size_t j = 0; table->survey != NULL && j < count; ++j)
+        printf(",%s",
+               has_witness ? output_number_exact(table->survey->answers[k].numbers[j]).text : "");
+}
+
+void clearance_print_csv(const clearance_table *table, size_t at, const imp_clearance *r)
+{
+    const imp_scene *scene = table->scene;
+    double field[] = {r->t_start, r->t_end, r->lower, r->upper, r->t};
+    if (is_over_parameter(table)) {
+        const value_range slice = survey_parts_slice(table->survey, at);
+        field[0] = slice.lo, field[1] = slice.hi;
+    }
     for (int k = 0; k < 5; ++k) print_field(field[k]);
     const char *verdict = clearance_verdict_name(r->verdict);
     fputs(verdict != NULL ? verdict : "", stdout);
-    print_name(r->has_witness ? imp_scene_body_name(scene, r->a.body) : "");
-    print_name(r->has_witness ? imp_scene_body_name(scene, r->b.body) : "");
+    print_name("", r->has_witness ? imp_scene_body_name(scene, r->a.body) : "");
+    print_name("", r->has_witness ? imp_scene_body_name(scene, r->b.body) : "");
+    print_csv_values(table, at, r->has_witness);
     putchar('\n');
 }
 

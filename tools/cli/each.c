@@ -8,61 +8,12 @@
 #include <stdio.h>
 #include <stdlib.h>
 
-#include "core/common/clock.h"
 #include "tools/cli/interrupt.h"
 #include "tools/cli/output.h"
 #include "tools/cli/progress.h"
 #include "tools/cli/query.h"
 #include "tools/cli/result.h"
 #include "tools/cli/verbs.h"
-
-/* --- Solving ---------------------------------------------------------------------------------- */
-
-static void take(void *context, size_t index, imp_query *part)
-{
-    const each *e = context;
-    e->answers[index] = imp_query_result(part);
-    e->advice[index] = query_advice(part);
-}
-
-static bool is_over(void *context)
-{
-    const each *e = context;
-    return interrupt_came() || clock_seconds() >= e->until;
-}
-
-exit_status each_begin(each *e, imp_scene *scene, const arguments *args, size_t threads)
-{
-    imp_error error = {0};
-    imp_options options = query_options(scene, args);
-    json_object_seed(0); /* before there are threads */
-    *e =
-        (each){.args = args,
-               .scene = scene,
-               .crew = {threads},
-               .until = options.max_seconds > 0 ? clock_seconds() + options.max_seconds : INFINITY};
-    query_lend_threads(&options, &e->crew);
-    e->plan = (parts_plan){.whole = imp_query_new(scene, &options, &error),
-                           .threads = threads,
-                           .take = take,
-                           .is_over = is_over,
-                           .context = e};
-    if (e->plan.whole == NULL ||
-        imp_query_divide(e->plan.whole, &e->plan.count, &error) != IMP_SUCCESS)
-        return complain_of(&error, args->verb->name);
-    e->answers = calloc(e->plan.count + 1, sizeof *e->answers);
-    e->advice = calloc(e->plan.count + 1, sizeof *e->advice);
-    return e->answers != NULL && e->advice != NULL ? EXIT_ANSWERED
-                                                   : complain_of_memory(args->verb->name);
-}
-
-void each_end(each *e)
-{
-    for (size_t k = 0; e->advice != NULL && k < e->plan.count; ++k) free(e->advice[k]);
-    free(e->advice);
-    free(e->answers);
-    imp_query_free(e->plan.whole);
-}
 
 /* --- Their order ------------------------------------------------------------------------------ */
 
@@ -99,7 +50,7 @@ static bool advance(void *context, double t_lower)
         size_t body[2];
         const size_t part = p->order[p->shown].part;
         if (p->shown == before) progress_wipe();
-        imp_query_part_bodies(e->plan.whole, part, body);
+        each_part_bodies(e, part, body);
         p->status = each_print_line(p, &e->answers[part], body[0], body[1]);
         if (p->status != EXIT_ANSWERED) return false;
     }
@@ -112,7 +63,7 @@ static bool advance(void *context, double t_lower)
 static bool only_counts(const printing *p)
 {
     if (p->list_all) return interrupt_came();
-    return p->rest.verdict == IMP_VERDICT_UNDECIDED || is_over(p->e);
+    return p->rest.verdict == IMP_VERDICT_UNDECIDED || each_is_over(p->e);
 }
 
 static bool is_unexamined(const imp_result *r)
@@ -160,8 +111,7 @@ static exit_status print_clear(printing *p)
                 count_rest(p, part, others);
                 return EXIT_ANSWERED;
             }
-            const bool is_part =
-                imp_query_part_bodies(e->plan.whole, part, of) && of[0] == a && of[1] == b;
+            const bool is_part = each_part_bodies(e, part, of) && of[0] == a && of[1] == b;
             const imp_result *r = is_part ? &e->answers[part] : &p->rest;
             if (!is_part && imp_scene_ignores(e->scene, a, b)) continue;
             part += is_part, others += !is_part;
@@ -213,7 +163,7 @@ static exit_status printing_begin(printing *p, each *e)
     *p = (printing){.e = e,
                     .json = arguments_option(e->args, "json") != NULL,
                     .list_all = arguments_option(e->args, "list-all") != NULL,
-                    .rest = imp_query_result(e->plan.whole),
+                    .rest = each_answer_of_rest(e),
                     .waiting = calloc(e->plan.count + 1, sizeof *p->waiting),
                     .order = calloc(e->plan.count + 1, sizeof *p->order)};
     e->printing = p;
@@ -252,6 +202,10 @@ static exit_status solve_and_print(each *e)
 {
     printing p;
     imp_error error = {0};
+    if (e->survey != NULL)
+        return survey_parts_run(e->survey, &error) == IMP_SUCCESS
+                   ? each_print(e)
+                   : complain_of(&error, e->args->verb->name);
     exit_status status = printing_begin(&p, e);
     e->plan.advance = advance;
     if (status == EXIT_ANSWERED && parts_run(&e->plan, &error) != IMP_SUCCESS)

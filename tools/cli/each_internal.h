@@ -5,7 +5,7 @@
 
 #include "tools/cli/each.h"
 
-/* solve --each: its lines (each_line.c) and their order (each.c) */
+/* solve --each: its parts (each_parts.c), its lines (each_line.c) and their order (each.c) */
 
 /* An answer that is not clear, and the time that it is printed in the order of. */
 typedef struct timed {
@@ -29,6 +29,15 @@ struct printing {
     size_t clear, unexamined; /* pairs of bodies without a line */
     exit_status worst, status;
 };
+
+/* Tells the bodies of part k; false past the last. */
+bool each_part_bodies(const each *e, size_t k, size_t body[2]);
+
+/* Whether the time is over, or a signal came. */
+bool each_is_over(const each *e);
+
+/* Returns the answer for pairs of bodies that have no part: with surveys there are none. */
+imp_result each_answer_of_rest(const each *e);
 
 /* Makes the two halves of the line of clear pairs, and the names that go between. False: no
  * memory. */

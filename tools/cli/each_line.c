@@ -20,6 +20,13 @@ static const char *advice_of(const each *e, const imp_result *r)
     return r != &p->rest && r != &p->unknown ? e->advice[r - e->answers] : NULL;
 }
 
+/* Whether a survey has answered it. */
+static bool has_values(const each *e, const imp_result *r)
+{
+    const printing *p = e->printing;
+    return e->survey != NULL && r != &p->rest && r != &p->unknown;
+}
+
 static json_t *line_json(const each *e, const imp_result *r, json_t *names)
 {
     json_t *object = result_json(e->scene, r);
@@ -27,6 +34,8 @@ static json_t *line_json(const each *e, const imp_result *r, json_t *names)
     failed |= json_object_set_new(object, "bodies", names);
     failed |= json_object_set_new(object, "at_rest", json_boolean(r->at_rest));
     failed |= object == NULL || !result_set_advice(object, advice_of(e, r));
+    if (has_values(e, r))
+        failed |= survey_parts_set_json(object, e->survey, (size_t)(r - e->answers));
     if (!failed) return object;
     json_decref(object);
     return NULL;
@@ -44,8 +53,9 @@ static exit_status print_json(const printing *p, const imp_result *r, size_t a, 
     return EXIT_ANSWERED;
 }
 
-static void print_text(const imp_scene *scene, const imp_result *r, size_t a, size_t b)
+static void print_text(const each *e, const imp_result *r, size_t a, size_t b)
 {
+    const imp_scene *scene = e->scene;
     if (r->verdict == IMP_VERDICT_CONTACT && r->at_rest)
         printf("overlap at rest, all the time");
     else if (r->verdict == IMP_VERDICT_CONTACT)
@@ -55,7 +65,9 @@ static void print_text(const imp_scene *scene, const imp_result *r, size_t a, si
     else
         printf("undecided from t = %s (%s)", output_number_lower(r->t_lower).text,
                result_excuse(r->reason).why);
-    printf(": %s, %s\n", imp_scene_body_name(scene, a), imp_scene_body_name(scene, b));
+    printf(": %s, %s", imp_scene_body_name(scene, a), imp_scene_body_name(scene, b));
+    if (has_values(e, r)) survey_parts_print_values(e->survey, (size_t)(r - e->answers));
+    putchar('\n');
 }
 
 /* Prints advice under its line, once where lines that follow each other have the same. */
@@ -74,7 +86,7 @@ exit_status each_print_line(printing *p, const imp_result *r, size_t a, size_t b
     if (status > p->worst) p->worst = status;
     status = EXIT_ANSWERED;
     if (!p->json) {
-        print_text(p->e->scene, r, a, b);
+        print_text(p->e, r, a, b);
         print_advice(p, advice_of(p->e, r));
     } else if (r == &p->rest) {
         printf("%s[%s,%s]%s\n", p->head, p->names[a], p->names[b], p->tail);

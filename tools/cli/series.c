@@ -28,9 +28,7 @@ const option options_series[] = {
 
 /* --- Gammas ----------------------------------------------------------------------------------- */
 
-/* Returns the number at *text, which is moved after it and a comma; NAN: there is no valid
- * number. */
-static double next_gamma(const char **text, double before)
+double series_next_gamma(const char **text, double before)
 {
     char *end;
     const double gamma = strtod(*text, &end);
@@ -63,7 +61,7 @@ exit_status series_check(const arguments *args)
     double gamma = INFINITY;
     const char *text = refine->text;
     do {
-        gamma = next_gamma(&text, gamma);
+        gamma = series_next_gamma(&text, gamma);
         if (isnan(gamma))
             return complain(EXIT_USAGE, speaker,
                             "--refine must be numbers above 0 with commas between, each smaller "
@@ -86,7 +84,7 @@ static exit_status answer_refined(series *s)
 {
     imp_error error = {0};
     const char *text = arguments_option(s->args, "refine")->text;
-    next_gamma(&text, INFINITY);
+    series_next_gamma(&text, INFINITY);
     for (;;) {
         imp_result r;
         if (query_run(s->query, &r, &error) != IMP_SUCCESS)
@@ -95,7 +93,8 @@ static exit_status answer_refined(series *s)
         if (status != EXIT_ANSWERED) return status;
         s->worst = query_status(&r, s->args);
         if (r.verdict == IMP_VERDICT_UNDECIDED || *text == '\0') return EXIT_ANSWERED;
-        if (imp_query_refine(s->query, next_gamma(&text, INFINITY), -1, &error) != IMP_SUCCESS)
+        if (imp_query_refine(s->query, series_next_gamma(&text, INFINITY), -1, &error) !=
+            IMP_SUCCESS)
             return complain_of(&error, s->args->verb->name);
     }
 }
@@ -105,7 +104,7 @@ exit_status series_answer(imp_scene *scene, const arguments *args)
     imp_error error = {0};
     const char *text = arguments_option(args, "refine")->text;
     imp_options options = query_options(scene, args);
-    options.gamma = next_gamma(&text, INFINITY);
+    options.gamma = series_next_gamma(&text, INFINITY);
     options.gamma_clear = -1;
     crew threads = {query_threads_asked(args)};
     query_lend_threads(&options, &threads);

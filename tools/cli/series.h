@@ -10,6 +10,10 @@
 /* Options of solve for several answers: --each (each.h) and --refine. */
 extern const option options_series[];
 
+/* Returns the gamma at *text, which is moved after it and a comma; NAN: there is none that is above
+ * 0 and below `before`. */
+double series_next_gamma(const char **text, double before);
+
 /* Complains about options that exclude each other. */
 exit_status series_check(const arguments *args);
 

@@ -10,12 +10,17 @@
 #include <string.h>
 
 #include "tools/cli/clearance.h"
+#include "tools/cli/clearance_measure.h"
+#include "tools/cli/each.h"
 #include "tools/cli/interrupt.h"
 #include "tools/cli/output.h"
 #include "tools/cli/progress.h"
 #include "tools/cli/query.h"
 #include "tools/cli/result.h"
+#include "tools/cli/series.h"
+#include "tools/cli/survey_answer.h"
 #include "tools/cli/survey_boxes.h"
+#include "tools/cli/survey_explain.h"
 #include "tools/cli/verbs.h"
 
 const option options_survey[] = {
@@ -60,16 +65,26 @@ static imp_code refuse_paper(imp_error *error)
     return IMP_ERROR_USAGE;
 }
 
+/* The first of the options that is given; NULL: none is. */
+static const char *first_given(const arguments *args, const char *const *names)
+{
+    for (size_t k = 0; names[k] != NULL; ++k)
+        if (arguments_option(args, names[k]) != NULL) return names[k];
+    return NULL;
+}
+
 exit_status survey_check(const arguments *args)
 {
-    static const char *const others[] = {"each",    "refine", "explain", "proof",
-                                         "profile", "within", NULL};
-    for (size_t k = 0; others[k] != NULL; ++k)
-        if (arguments_option(args, others[k]) != NULL)
-            return complain(
-                EXIT_USAGE, args->verb->name,
-                "--%s does not go with the parameters that the scene has; ask without it",
-                others[k]);
+    static const char *const several[] = {"each", "profile", "refine", NULL};
+    static const char *const files[] = {"boxes", "resume", NULL};
+    const char *many = first_given(args, several), *file = first_given(args, files);
+    if (arguments_option(args, "proof") != NULL)
+        return complain(
+            EXIT_USAGE, args->verb->name,
+            "--proof does not go with the parameters that the scene has; ask without it");
+    if (many != NULL && file != NULL)
+        return complain(EXIT_USAGE, args->verb->name, "--%s and --%s exclude each other", many,
+                        file);
     if (arguments_choice(args, "method", 0) != 0)
         return complain(EXIT_USAGE, args->verb->name, "%s", without_paper);
     return EXIT_ANSWERED;
@@ -81,91 +96,42 @@ typedef struct survey_run {
     imp_scene *scene;
     const arguments *args;
     imp_survey *survey;
-    imp_survey_state state;
-    double *values, *lo, *hi; /* one block */
-    bool has_values;
+    survey_answer answer;
 } survey_run;
 
-static json_t *values_json(const imp_scene *scene, const double *values)
+static survey_explaining explaining(const survey_run *r, survey_told told)
 {
-    imp_scene_parameter_info info;
-    json_t *object = json_object();
-    for (size_t k = 0; imp_scene_parameter(scene, k, &info); ++k)
-        if (json_object_set_new(object, info.name, output_json_number(values[k])) != 0)
-            return json_decref(object), NULL;
-    return object;
+    return (survey_explaining){.table = arguments_option(r->args, "explain") != NULL,
+                               .advice = told.undecided};
 }
 
-/* What stands beside an answer as JSON. `known`: the values are those of the answer. */
-static int set_state(json_t *object, const survey_run *r, bool known, bool undecided)
+/* Adds what stands beside an answer as JSON; NULL: no memory. */
+static json_t *completed(const survey_run *r, json_t *object, survey_told told)
 {
-    int failed = json_object_set_new(object, "boxes", json_integer((json_int_t)r->state.boxes));
-    failed |= json_object_set_new(object, "parameters",
-                                  known ? values_json(r->scene, r->values) : json_null());
-    if (object != NULL) failed |= !result_set_warnings(object, r->scene);
-    if (!undecided) return failed;
-    failed |= json_object_set_new(object, "proved", output_json_number(r->state.proved));
-    if (r->state.has_worst)
-        failed |= json_object_set_new(
-            object, "worst",
-            json_pack("{s:o, s:o, s:o}", "parameters", survey_ranges_json(r->scene, r->lo, r->hi),
-                      "time", result_times_json(r->state.worst_time[0], r->state.worst_time[1]),
-                      "bodies", survey_bodies_json(r->scene, r->state.worst_body)));
-    if (r->has_values && !known)
-        failed |=
-            json_object_set_new(object, "known",
-                                json_pack("{s:o, s:o}", "t", output_json_number(r->state.t_upper),
-                                          "parameters", values_json(r->scene, r->values)));
-    return failed;
+    if (object == NULL) return NULL;
+    if (survey_answer_set_json(object, r->scene, &r->answer, told) == 0 &&
+        result_set_warnings(object, r->scene) &&
+        survey_explain_set_json(object, r->scene, r->survey, explaining(r, told)))
+        return object;
+    json_decref(object);
+    return NULL;
 }
 
-static exit_status print_json(const survey_run *r, json_t *object, bool known, bool undecided)
+static exit_status print_json(const survey_run *r, json_t *object, survey_told told)
 {
-    if (object != NULL && (json_object_set_new(object, "scene", query_scene_json(r->args)) != 0 ||
-                           set_state(object, r, known, undecided) != 0)) {
+    object = completed(r, object, told);
+    if (object != NULL && json_object_set_new(object, "scene", query_scene_json(r->args)) != 0) {
         json_decref(object);
         object = NULL;
     }
     return output_json(object, r->args->verb->name);
 }
 
-static void print_values(const survey_run *r, const char *label)
+static exit_status print_text(const survey_run *r, survey_told told)
 {
-    imp_scene_parameter_info info;
-    result_print_label(label);
-    for (size_t k = 0; imp_scene_parameter(r->scene, k, &info); ++k)
-        printf("%s%s = %.10g", k > 0 ? ", " : "", message_shown(info.name).text, r->values[k]);
-    putchar('\n');
-}
-
-static void print_ranges(const survey_run *r, const char *label, const double *lo, const double *hi)
-{
-    imp_scene_parameter_info info;
-    result_print_label(label);
-    for (size_t k = 0; imp_scene_parameter(r->scene, k, &info); ++k)
-        printf("%s%s from %.10g to %.10g", k > 0 ? ", " : "", message_shown(info.name).text, lo[k],
-               hi[k]);
-}
-
-static exit_status print_text(const survey_run *r, bool known, bool undecided)
-{
-    if (known) print_values(r, "values");
-    if (undecided) {
-        result_print_label("share");
-        printf("%s of all values and times is proved\n", output_number_lower(r->state.proved).text);
-        if (r->state.has_worst) {
-            print_ranges(r, "left", r->lo, r->hi);
-            printf(", t from %.10g to %.10g\n", r->state.worst_time[0], r->state.worst_time[1]);
-        }
-        if (r->has_values && !known) {
-            result_print_label("known");
-            printf("a contact at t = %.10g, but an earlier one is not excluded\n",
-                   r->state.t_upper);
-            print_values(r, "values");
-        }
-    }
-    result_print_label("boxes");
-    printf("%ju\n", (uintmax_t)r->state.boxes);
+    survey_answer_print(r->scene, &r->answer, told);
+    if (!survey_explain_print(r->scene, r->survey, explaining(r, told)))
+        return complain_of_memory(r->args->verb->name);
     return output_flush(r->args->verb->name);
 }
 
@@ -173,14 +139,13 @@ static exit_status tell_contact(const survey_run *r)
 {
     imp_result result = {.struct_size = (uint32_t)sizeof result};
     imp_survey_get_result(r->survey, &result, NULL);
-    const bool known = result.verdict == IMP_VERDICT_CONTACT;
-    const bool undecided = result.verdict == IMP_VERDICT_UNDECIDED;
+    const survey_told told = survey_told_of_contact(&result);
     exit_status status;
     if (arguments_option(r->args, "json") != NULL) {
-        status = print_json(r, result_json(r->scene, &result), known, undecided);
+        status = print_json(r, result_json(r->scene, &result), told);
     } else {
         result_print(r->scene, &result);
-        status = print_text(r, known, undecided);
+        status = print_text(r, told);
     }
     return status != EXIT_ANSWERED ? status : query_status(&result, r->args);
 }
@@ -190,36 +155,42 @@ static exit_status tell_clearance(const survey_run *r)
     imp_clearance answer = {.struct_size = (uint32_t)sizeof answer};
     imp_survey_get_clearance(r->survey, &answer, NULL);
     const exit_status verdict = clearance_status(&answer);
-    const bool known = answer.has_witness, undecided = verdict == EXIT_UNDECIDED;
+    const survey_told told = {answer.has_witness, verdict == EXIT_UNDECIDED};
     exit_status status;
     if (arguments_option(r->args, "json") != NULL) {
-        status = print_json(r, clearance_json(r->scene, &answer), known, undecided);
+        status = print_json(r, clearance_json(r->scene, &answer), told);
     } else {
         clearance_print(r->scene, &answer, query_options(r->scene, r->args).gamma);
-        status = print_text(r, known, undecided);
+        status = print_text(r, told);
     }
     return status != EXIT_ANSWERED ? status : verdict;
 }
 
 /* --- Running ---------------------------------------------------------------------------------- */
 
+static imp_code step(survey_run *r, imp_error *error)
+{
+    const imp_code code = imp_survey_step(r->survey, 0, error);
+    if (code != IMP_SUCCESS) return error->code = code;
+    progress_wipe();
+    survey_answer_read(r->scene, r->survey, &r->answer);
+    return code;
+}
+
 static imp_code find_answer(survey_run *r, const imp_options *options,
                             const imp_survey_options *how, const imp_clearance_options *asked,
                             imp_error *error)
 {
-    const size_t count = imp_scene_parameter_count(r->scene);
-    r->values = calloc(3 * count + 1, sizeof *r->values);
-    if (r->values == NULL) return error->code = IMP_ERROR_MEMORY;
-    r->lo = r->values + count, r->hi = r->lo + count;
+    r->answer.numbers = calloc(survey_answer_room(r->scene), sizeof *r->answer.numbers);
+    if (r->answer.numbers == NULL) return error->code = IMP_ERROR_MEMORY;
     r->survey = imp_survey_new(r->scene, options, asked, how, error);
-    if (r->survey == NULL || imp_survey_step(r->survey, 0, error) != IMP_SUCCESS)
-        return error->code;
-    progress_wipe();
-    r->state = (imp_survey_state){.struct_size = (uint32_t)sizeof r->state};
-    imp_survey_get_state(r->survey, &r->state, NULL);
-    r->has_values = imp_survey_values(r->survey, r->values);
-    imp_survey_worst(r->survey, r->lo, r->hi);
-    return IMP_SUCCESS;
+    return r->survey != NULL ? step(r, error) : error->code;
+}
+
+static void run_end(survey_run *r)
+{
+    imp_survey_free(r->survey);
+    free(r->answer.numbers);
 }
 
 static exit_status run_to_end(survey_run *r, const imp_survey_options *how,
@@ -239,15 +210,48 @@ static exit_status run(imp_scene *scene, const imp_clearance_options *asked, con
     survey_run r = {.scene = scene, .args = args};
     imp_survey_options how = imp_survey_options_default();
     survey_boxes boxes;
-    exit_status status = survey_check(args);
-    if (status != EXIT_ANSWERED) return status;
     how.max_boxes = arguments_count(args, "max-boxes", 0);
-    status = survey_boxes_begin(&boxes, scene, &how, args);
+    exit_status status = survey_boxes_begin(&boxes, scene, &how, args);
     if (status == EXIT_ANSWERED) status = run_to_end(&r, &how, asked);
     status = survey_boxes_end(&boxes, r.survey, status);
     if (status == EXIT_ANSWERED) status = asked != NULL ? tell_clearance(&r) : tell_contact(&r);
-    imp_survey_free(r.survey);
-    free(r.values);
+    run_end(&r);
+    return status;
+}
+
+/* Answers at each gamma; an undecided answer is the last. */
+static exit_status tell_refined(survey_run *r)
+{
+    const char *text = arguments_option(r->args, "refine")->text;
+    imp_error error = {0};
+    exit_status status = tell_contact(r);
+    series_next_gamma(&text, INFINITY);
+    while ((status == EXIT_ANSWERED || status == EXIT_CONTACT) && *text != '\0') {
+        if (imp_survey_refine(r->survey, series_next_gamma(&text, INFINITY), -1, &error) !=
+                IMP_SUCCESS ||
+            step(r, &error) != IMP_SUCCESS)
+            return complain_of(&error, r->args->verb->name);
+        status = tell_contact(r);
+    }
+    return status;
+}
+
+static exit_status run_refined(imp_scene *scene, const arguments *args)
+{
+    survey_run r = {.scene = scene, .args = args};
+    imp_survey_options how = imp_survey_options_default();
+    imp_options options = query_options(scene, args);
+    crew threads = {query_threads_asked(args)};
+    imp_error error = {0};
+    const char *text = arguments_option(args, "refine")->text;
+    query_lend_threads(&options, &threads);
+    options.gamma = series_next_gamma(&text, INFINITY);
+    options.gamma_clear = -1;
+    how.max_boxes = arguments_count(args, "max-boxes", 0);
+    const exit_status status = find_answer(&r, &options, &how, NULL, &error) == IMP_SUCCESS
+                                   ? tell_refined(&r)
+                                   : complain_of(&error, args->verb->name);
+    run_end(&r);
     return status;
 }
 
@@ -261,26 +265,28 @@ imp_code survey_solve(imp_scene *scene, const arguments *args, imp_result *resul
     if (code == IMP_SUCCESS) {
         *result = (imp_result){.struct_size = (uint32_t)sizeof *result};
         imp_survey_get_result(r.survey, result, NULL);
-        *answer = result_json(scene, result);
-        if (*answer != NULL && set_state(*answer, &r, result->verdict == IMP_VERDICT_CONTACT,
-                                         result->verdict == IMP_VERDICT_UNDECIDED) != 0) {
-            json_decref(*answer);
-            *answer = NULL;
-        }
+        *answer = completed(&r, result_json(scene, result), survey_told_of_contact(result));
     }
-    imp_survey_free(r.survey);
-    free(r.values);
+    run_end(&r);
     return code;
 }
 
 exit_status survey_contact(imp_scene *scene, const arguments *args)
 {
+    const exit_status status = survey_check(args);
     interrupt_prepare();
-    return run(scene, NULL, args);
+    if (status != EXIT_ANSWERED) return status;
+    if (arguments_option(args, "each") != NULL) return each_answer(scene, args);
+    return arguments_option(args, "refine") != NULL ? run_refined(scene, args)
+                                                    : run(scene, NULL, args);
 }
 
 exit_status survey_clearance(imp_scene *scene, const imp_clearance_options *asked,
                              const arguments *args)
 {
-    return run(scene, asked, args);
+    const exit_status status = survey_check(args);
+    if (status != EXIT_ANSWERED) return status;
+    return arguments_option(args, "each") != NULL || arguments_option(args, "profile") != NULL
+               ? clearance_survey(scene, asked, args)
+               : run(scene, asked, args);
 }

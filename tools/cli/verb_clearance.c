@@ -38,6 +38,8 @@ static exit_status check(const arguments *args)
                         profile != NULL ? "profile" : "each");
     if (profile != NULL && arguments_option(args, "each") != NULL)
         return complain(EXIT_USAGE, args->verb->name, "--each and --profile exclude each other");
+    if (arguments_option(args, "over") != NULL && profile == NULL)
+        return complain(EXIT_USAGE, args->verb->name, "--over belongs to --profile");
     if (arguments_option(args, "threads") != NULL && arguments_option(args, "each") == NULL)
         return complain(EXIT_USAGE, args->verb->name, "--threads belongs to --each");
     if (arguments_option(args, "within") != NULL && arguments_option(args, "each") == NULL)
@@ -65,8 +67,10 @@ static imp_clearance_options asked_for(const arguments *args)
 static exit_status measure_scene(imp_scene *scene, const arguments *args)
 {
     const imp_clearance_options asked = asked_for(args);
-    return survey_is_needed(scene, args) ? survey_clearance(scene, &asked, args)
-                                         : clearance_measure(scene, &asked, args);
+    if (survey_is_needed(scene, args)) return survey_clearance(scene, &asked, args);
+    if (arguments_option(args, "over") != NULL)
+        return complain(EXIT_USAGE, args->verb->name, "--over: the scene has no parameters");
+    return clearance_measure(scene, &asked, args);
 }
 
 static exit_status run(const arguments *args)
@@ -114,6 +118,10 @@ static const option clearance_options[] = {
      .kind = OPTION_COUNT,
      .argument = "N",
      .help = "measure N equal slices of time, as CSV or, with --json, JSON lines"},
+    {.name = "over",
+     .kind = OPTION_TEXT,
+     .argument = "NAME",
+     .help = "with --profile: slices of the range of this parameter of the scene instead"},
     {.name = NULL}};
 
 static const option *const tables[] = {

@@ -13,7 +13,7 @@
 static exit_status answer(imp_scene *scene, const imp_error *error, const arguments *args)
 {
     const bool by_pairs = arguments_option(args, "each") != NULL;
-    if (scene == NULL || imp_scene_parameter_count(scene) > 0 ||
+    if (scene == NULL || imp_scene_parameter_count(scene) > 0 || /* a survey answers these */
         !(by_pairs || arguments_option(args, "refine") != NULL))
         return query_answer(scene, error, args);
     interrupt_prepare();

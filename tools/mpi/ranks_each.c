@@ -17,11 +17,11 @@
 
 /* Takes parts until there are none. Answers the number of the first that failed here, with its
  * error, or the count. */
-static int64_t solve_parts(const each *e, ranks_counter *counter, imp_error *error)
+static int64_t solve_parts(each *e, ranks_counter *counter, imp_error *error)
 {
     const int64_t count = (int64_t)e->plan.count;
     for (int64_t k; (k = ranks_counter_next(counter)) < count;)
-        if (parts_solve(&e->plan, (size_t)k, error) != IMP_SUCCESS) return k;
+        if (each_solve_part(e, (size_t)k, error) != IMP_SUCCESS) return k;
     return count;
 }
 
@@ -39,6 +39,18 @@ static void gather_answers(each *e)
     for (size_t k = 0; k < e->plan.count; k += AT_ONCE) {
         const size_t left = e->plan.count - k;
         gather_bytes(e->answers + k, (left < AT_ONCE ? left : AT_ONCE) * sizeof *e->answers);
+    }
+}
+
+/* What surveys say of values. The numbers are bytes 0 on all ranks but one. */
+static void gather_values(each *e)
+{
+    survey_parts *p = e->survey;
+    if (p == NULL) return;
+    for (size_t k = 0; k < p->count; ++k) {
+        gather_bytes(&p->answers[k].state, sizeof p->answers[k].state);
+        gather_bytes(&p->answers[k].has_values, sizeof p->answers[k].has_values);
+        gather_bytes(p->answers[k].numbers, survey_answer_room(p->scene) * sizeof *p->numbers);
     }
 }
 
@@ -100,6 +112,7 @@ static exit_status solve_and_print(each *e)
     const exit_status status = complain_of_first(e, failed, &error);
     if (status != EXIT_ANSWERED) return status;
     gather_answers(e);
+    gather_values(e);
     gather_advice(e);
     return ranks_own() == FIRST_RANK ? each_print(e) : EXIT_ANSWERED;
 }
