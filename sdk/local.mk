@@ -97,6 +97,7 @@ python_module = \
     sdk/python/impinge/_query.py \
     sdk/python/impinge/_registry.py \
     sdk/python/impinge/_survey.py \
+    sdk/python/impinge/_surveys.py \
     sdk/python/impinge/_values.py \
     sdk/python/impinge/batching.py \
     sdk/python/impinge/builder.py \

@@ -53,6 +53,29 @@ many() {
     ranks 4 "$mpi" solve crowd.json --each --json | without_seconds | cmp - whole
 }
 
+# Balls on three arms, of which two meet at some angles; the hall comes nearer in time.
+turning() {
+    local arm='{"name": "%s", "surfaces": [{"type": "sphere", "radius": 0.3, "center": [%s,0,0]}],
+        "maps": [{"type": "rotate", "axis": [0,0,1], "rate": 1, "clock": "%s"}, {"type": "translate",
+        "offset": [[%s,0,0],[%s,0,0]]}]}'
+    # shellcheck disable=SC2059 # the format is above
+    printf "{\"gamma\": 1e-2, \"parameters\": {\"a\": [-1,1], \"b\": [-1,1]}, \"bodies\": [$arm, $arm, $arm]}" \
+        one 1 a 0 0  two -1 b 2.7 -0.2  three -1 b 5.4 -0.1 | tr -d '\n'
+}
+
+@test "a scene with parameters has the same bytes from four ranks, by pairs and in a batch" {
+    turning >turning.json
+    "$IMPINGE" solve turning.json --each --json --threads 1 | without_seconds >whole
+    [ "$(jq -s 'map(.verdict == "contact" and .parameters.a != null) | any' whole)" = true ]
+    ranks 4 "$mpi" solve turning.json --each --json | without_seconds | cmp - whole
+    run -3 --separate-stderr ranks 3 "$mpi" solve turning.json --each --json --max-boxes 2
+    jq -es 'length == 3 and any(.verdict == "undecided" and .worst.parameters.b != null)' <<<"$output"
+    for k in 1 2 3 4 5; do turning | jq -c ".id = $k | .parameters.a = [0, 0.1 * $k]"; done >lines.jsonl
+    "$IMPINGE" batch lines.jsonl | without_seconds >whole
+    ranks 4 "$mpi" batch lines.jsonl --resume lines.out
+    without_seconds <lines.out | cmp - whole
+}
+
 @test "advice about undecided pairs comes from the rank that has searched them" {
     egg() { printf '{"name": "%s", "surfaces": [{"type": "ellipsoid", "radii": [1,1,%s]}]}' "$@"; }
     printf '{"time": [0,1], "bodies": [%s, %s, %s, %s]}' "$(egg a 1)" "$(egg b 0.999)" \

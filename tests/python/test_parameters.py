@@ -84,3 +84,63 @@ def test_wrong_values_and_clocks_are_named():
     builder = impinge.Builder(parameters={"a": (0, 1)})
     with pytest.raises(impinge.SceneError, match="clock"):
         builder.body("ball").surface("sphere").map("rotate", rate=1, clock="b")
+
+
+def three(radius=0.25):
+    """`arm` with a body that is far from both."""
+    builder = impinge.Builder(time=(0, 1), parameters={"a": (0.25, 1.5), "s": (0, 0.5)})
+    builder.body("rest").surface("sphere", radius=radius, center=[3, 0, 0])
+    moved = builder.body("hand").surface("sphere", radius=radius, center=[2, 0, 0])
+    moved.map("translate", velocity=[1, 0, 0], clock="s").map("rotate", axis=[0, 0, 1], rate=1, clock="a")
+    builder.body("far").surface("sphere", center=[0, 0, 50])
+    return builder.build()
+
+
+def test_each_pair_is_answered_for_all_values():
+    found = list(three(0.5).solve_each())
+    assert [one.verdict for one in found] == ["contact", "clear", "clear"]
+    assert found[0].bodies == ("rest", "hand") and apart(**found[0].parameters) <= 1 + 1e-5
+    best = apart(0.25, 0.5) - 0.5
+    answers = three().each(tolerance=1e-2)
+    assert [one.bodies for one in answers][0] == ("rest", "hand") and len(answers) == 3
+    assert answers[0].lower <= best <= answers[0].upper and answers[1].lower > 40
+    assert answers == three().each(tolerance=1e-2, threads=1)
+    near = three().each(tolerance=1e-2, within=1)
+    assert [one.bodies for one in near] == [("rest", "hand")] and near[0].lower == answers[0].lower
+    assert three().each(within=0.9 * best) == []
+    with pytest.raises(impinge.UsageError, match="within: got 0.1"):
+        three().each(within=0.1, required=0.2)
+
+
+def test_each_ends_at_a_limit_as_undecided():
+    assert {one.verdict for one in three().each(required=0.3, max_seconds=1e-9)} == {"undecided"}
+    assert {one.verdict for one in three(0.5).solve_each(max_seconds=1e-9)} == {"undecided"}
+    told = []
+    ended = three().each(tolerance=1e-9, threads=1, progress=lambda p: told.append(p) or False)
+    assert len(told) == 1 and "cancelled" in {one.reason for one in ended}
+    with pytest.raises(ZeroDivisionError):
+        three().each(tolerance=1e-9, progress=lambda p: 1 / 0)
+
+
+def test_a_profile_slices_time_or_a_parameter():
+    scene = arm()
+    over = scene.profile(4, over="s", tolerance=1e-2)
+    assert over.over == "s" and list(over.t0) == [0, 0.125, 0.25, 0.375] and over.t1[-1] == 0.5
+    for k in range(4):
+        best = min(apart(0.25, over.t0[k]), apart(0.25, over.t1[k])) - 0.5
+        assert over.lower[k] <= best * (1 + 1e-12) and over.upper[k] >= best * (1 - 1e-12)
+        assert over.t0[k] <= over.parameters[k]["s"] <= over.t1[k]
+    times = scene.profile(2, required=0.01, tolerance=1e-2)
+    assert times.over is None and times.verdict == ("holds", "holds") and times.t1[-1] == 1
+    assert len(scene.profile(3, over="a", max_seconds=1e-9)) == 3
+    with pytest.raises(impinge.UsageError, match="over: got 'b'"):
+        scene.profile(2, over="b")
+    with pytest.raises(impinge.UsageError, match="slices"):
+        scene.profile(0, over="a")
+
+
+def test_refine_answers_at_each_gamma_for_all_values():
+    found = list(arm(radius=0.5).refine([1e-3, 1e-1, 1e-2]))
+    assert [one.gamma for one in found] == [1e-1, 1e-2, 1e-3]
+    assert all(one.verdict == "contact" and one.gap <= one.gamma for one in found)
+    assert all(apart(**one.parameters) - 1 <= one.gamma * (1 + 1e-9) for one in found)

@@ -9,6 +9,7 @@
 #include "tools/cli/each_internal.h"
 #include "tools/cli/interrupt.h"
 #include "tools/cli/query.h"
+#include "tools/cli/survey.h"
 #include "tools/cli/verbs.h"
 
 /* solve --each: what answers each pair of bodies: a part of a divided query or, in a scene with
@@ -28,9 +29,11 @@ static bool is_over(void *context) { return each_is_over(context); }
 /* The parts of a scene with parameters. */
 static exit_status begin_surveys(each *e, imp_scene *scene, const arguments *args, size_t threads)
 {
+    exit_status status = survey_check(args);
+    if (status != EXIT_ANSWERED) return status;
     e->survey = calloc(1, sizeof *e->survey);
     if (e->survey == NULL) return complain_of_memory(args->verb->name);
-    const exit_status status = survey_parts_each(e->survey, scene, NULL, args, threads);
+    status = survey_parts_each(e->survey, scene, NULL, args, threads);
     if (status == EXIT_ANSWERED) e->plan.count = e->survey->count;
     return status;
 }

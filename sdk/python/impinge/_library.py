@@ -195,6 +195,8 @@ class SurveyOptions(c.Structure):
         ("sink", c.c_void_p),
         ("sink_context", c.c_void_p),
         ("resume", c.c_char_p),
+        ("lo", c.c_void_p),
+        ("hi", c.c_void_p),
     ]
 
 
@@ -272,6 +274,7 @@ _FUNCTIONS = {
     "imp_survey_cancel": (None, _P),
     "imp_survey_get_result": (c.c_int, _P, c.POINTER(Result), _E),
     "imp_survey_get_clearance": (c.c_int, _P, _P, _E),
+    "imp_survey_refine": (c.c_int, _P, _D, _D, _E),
     "imp_survey_values": (c.c_bool, _P, _P),
     "imp_survey_get_state": (c.c_int, _P, c.POINTER(SurveyState), _E),
     "imp_options_get_default": (c.c_int, _P, c.POINTER(Options), _E),

@@ -5,7 +5,7 @@
 
 import ctypes as c
 from time import monotonic
-from typing import Any, Dict, NamedTuple, Optional, Tuple
+from typing import Any, Callable, Dict, NamedTuple, Optional, Sequence, Tuple
 
 from . import _library as lib
 from . import _values as values
@@ -14,6 +14,8 @@ from ._handle import Handle
 from ._query import SECONDS, Settings, Wanted
 from .errors import check
 from .results import Progress
+
+Ranges = Sequence[Tuple[float, float]]
 
 _BOXES = 4  # asked about between looks at signals: some milliseconds
 
@@ -28,6 +30,16 @@ def parameters_of(handle: Handle) -> Dict[str, Tuple[float, float]]:
     return found
 
 
+def times_of(handle: Handle, settings: Settings) -> Tuple[float, float]:
+    """The times that the settings, or else the scene, ask about."""
+    options, error = lib.Options(struct_size=c.sizeof(lib.Options)), lib.Error()
+    code = lib.library.imp_options_get_default(handle.address, c.byref(options), c.byref(error))
+    if settings.time is None:
+        check(code, error)
+    settings.write(options)
+    return options.t_start, options.t_end
+
+
 class State(NamedTuple):
     """How far a survey has come: the share of all values and times that is proved; boxes asked about, and
     left; the values at which something was found."""
@@ -40,9 +52,11 @@ class State(NamedTuple):
 
 class Survey:
     """A survey of libimpinge, freed at the end of its `with`. With `wanted` it is one of clearance; `any` ends
-    it with any contact or violation, though another may be earlier."""
+    it with any contact or violation, though another may be earlier; `bodies` and `ranges` of all parameters
+    ask about these alone."""
 
-    def __init__(self, scene: Handle, settings: Settings, wanted: Optional[Wanted] = None, *, any: bool = False):
+    def __init__(self, scene: Handle, settings: Settings, wanted: Optional[Wanted] = None, *, any: bool = False,
+                 bodies: Optional[Tuple[int, int]] = None, ranges: Optional[Ranges] = None):
         self._scene, self._progress, self._is_clearance = scene, settings.progress, wanted is not None
         self._names = tuple(parameters_of(scene))
         options, error = lib.Options(struct_size=c.sizeof(lib.Options)), lib.Error()
@@ -56,6 +70,11 @@ class Survey:
         how = lib.SurveyOptions(struct_size=c.sizeof(lib.SurveyOptions))
         check(lib.library.imp_survey_options_get_default(c.byref(how), c.byref(error)), error)
         how.any = any
+        if bodies is not None:
+            how.body = bodies
+        if ranges is not None:
+            ends = [(c.c_double * len(ranges))(*(one[side] for one in ranges)) for side in range(2)]
+            how.lo, how.hi = (c.cast(one, c.c_void_p) for one in ends)
         asked = None
         if wanted is not None:
             asked = lib.ClearanceOptions(struct_size=c.sizeof(lib.ClearanceOptions))
@@ -86,14 +105,21 @@ class Survey:
     def __del__(self) -> None:
         self.close()
 
-    def run(self) -> State:
-        """Goes on until there is an answer, with a look at signals now and then."""
+    def refine(self, gamma: float) -> None:
+        """At a smaller gamma."""
+        error = lib.Error()
+        check(lib.library.imp_survey_refine(self._address, gamma, -1, c.byref(error)), error)
+
+    def run(self, is_over: Callable[[], bool] = lambda: False) -> State:
+        """Goes on until there is an answer, with a look at signals and at `is_over` now and then."""
         error, told = lib.Error(), monotonic()
         while True:
             check(lib.library.imp_survey_step(self._address, _BOXES, c.byref(error)), error)
             state = self._state()
             if state.reason != lib.RUNNING:
                 break
+            if is_over():
+                lib.library.imp_survey_cancel(self._address)
             if self._progress is None or monotonic() - told < SECONDS:
                 continue
             told = monotonic()

@@ -137,7 +137,9 @@ class Profile:
     """Clearance over slices of time, one element for each slice: it begins at `t0` and ends at `t1`; the
     bracket `lower`, `upper`; the time `t` of the witness (NaN: none) and its two bodies (None: none); the
     verdict about a required distance. Where a limit ends the search the last element, with `lower` 0, is for
-    all of the time that is left."""
+    all of the time that is left. Of a scene with parameters each slice is about all their values, and
+    `parameters` are those of its witness; with `over`, slices are those of the range of this parameter, and
+    each of them is there, whatever limit came."""
 
     t0: Floats
     t1: Floats
@@ -146,6 +148,8 @@ class Profile:
     t: Floats
     bodies: Tuple[Optional[Bodies], ...]
     verdict: Tuple[Optional[Requirement], ...]
+    over: Optional[str] = None
+    parameters: Tuple[Optional[Dict[str, float]], ...] = ()
 
     def __eq__(self, other: object) -> bool:
         if not isinstance(other, Profile):

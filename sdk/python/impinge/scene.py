@@ -20,7 +20,9 @@ from ._handle import Handle, from_text
 from ._parts import Parts
 from ._query import ProgressSink, Query, Settings, Wanted
 from ._registry import Registry
+from . import _surveys
 from ._survey import Survey, parameters_of
+from ._surveys import Surveys
 from .errors import UsageError, check
 from .pictures import Format, Picture, draw
 from .results import Clearance, Profile, Result, clearance_of, profile_of, result_of
@@ -39,8 +41,8 @@ class Scene:
     question, as "undecided", by returning False. An exception that it raises, or Ctrl-C, ends the
     question. Wrong arguments are a `UsageError`, which names them.
 
-    Of a scene with `parameters` (their ranges, by name) `solve` and `clearance` ask about all values at once;
-    other questions are asked `at` values."""
+    Of a scene with `parameters` (their ranges, by name) every question is about all values at once, and
+    answers name the values of what they found; `at` makes the scene at values."""
 
     bodies: Tuple[str, ...]
     parameters: Dict[str, Tuple[float, float]]
@@ -286,6 +288,8 @@ class Scene:
         a clear result for each pair that never touches. Where a budget ends the search the last result is
         "undecided", and has no `bodies`."""
         settings = Settings(time, gamma, gamma_clear, max_pairs, max_seconds, max_bytes, audit, progress)
+        if self.parameters:
+            return _surveys.solve_each(Surveys(self._handle, self.bodies, settings), list(self._pairs()))
         return self._solve_each(Query(self._handle, settings))
 
     def _solve_each(self, opened: Query) -> Iterator[Result]:
@@ -315,7 +319,18 @@ class Scene:
             return iter(())
         settings = Settings(time, widest_first[0], None, max_pairs, max_seconds, max_bytes, audit,
                             progress)
+        if self.parameters:
+            return self._refine_all(Survey(self._handle, settings), widest_first[1:])
         return self._refine(Query(self._handle, settings), widest_first[1:])
+
+    def _refine_all(self, opened: Survey, finer: List[float]) -> Iterator[Result]:
+        with opened as survey:
+            for gamma in [None, *finer]:
+                if gamma is not None:
+                    survey.refine(gamma)
+                state = survey.run()
+                yield replace(result_of(self.bodies, survey.result()), parameters=state.values,
+                              proved=state.proved)
 
     def _refine(self, opened: Query, finer: List[float]) -> Iterator[Result]:
         with opened as query:
@@ -366,6 +381,9 @@ class Scene:
         ends the search, a last answer whose `bodies` are None stands for the pairs that were not
         examined."""
         settings = Settings(time, gamma, None, max_pairs, max_seconds, max_bytes, audit, progress)
+        if self.parameters:
+            return _surveys.each(Surveys(self._handle, self.bodies, settings), list(self._pairs()),
+                                 Wanted(required, tolerance), within, values.threads(threads))
         with Query(self._handle, settings, Wanted(required, tolerance, None, within)) as query:
             parts = Parts(query, self.bodies, required, within, progress)
             return parts.answers(self._pairs(), values.threads(threads))
@@ -374,10 +392,15 @@ class Scene:
                 tolerance: Optional[float] = None, time: Optional[Sequence[float]] = None,
                 gamma: Optional[float] = None, max_pairs: Optional[int] = None,
                 max_seconds: Optional[float] = None, max_bytes: Optional[int] = None,
-                audit: Optional[bool] = None, progress: Optional[ProgressSink] = None) -> Profile:
-        """The clearance in each of so many equal slices of time; where a limit ends the search, one last
-        element is for all that were not begun."""
+                audit: Optional[bool] = None, progress: Optional[ProgressSink] = None,
+                over: Optional[str] = None) -> Profile:
+        """The clearance in each of so many equal slices of time or, with `over`, of the range of this parameter
+        of the scene; where a limit ends the search, one last element is for all that were not begun. With
+        parameters each slice is one question, for which `max_pairs` holds, and none is left out."""
         settings = Settings(time, gamma, None, max_pairs, max_seconds, max_bytes, audit, progress)
+        if self.parameters or over is not None:
+            return _surveys.profile(Surveys(self._handle, self.bodies, settings), self._handle, settings,
+                                    Wanted(required, tolerance, slices), over)
         with Query(self._handle, settings, Wanted(required, tolerance, slices)) as query:
             query.step()
             return profile_of(self.bodies, query.chunks())
