@@ -12,6 +12,7 @@ core_common = \
     core/common/child_process.c core/common/child_process.h \
     core/common/clock.h \
     core/common/fp_control.h \
+    core/common/search_path.c core/common/search_path.h \
     core/common/sha256.c core/common/sha256.h \
     core/common/spelling.c core/common/spelling.h \
     core/common/json_size.h \
@@ -99,7 +100,6 @@ core_plugin = \
     core/plugin/registry.c core/plugin/registry.h \
     core/plugin/registry_internal.h \
     core/plugin/registry_scan.c \
-    core/plugin/search_path.c core/plugin/search_path.h \
     core/plugin/type_view.h \
     core/plugin/value_bytes.c core/plugin/value_bytes.h \
     core/plugin/worker.c core/plugin/worker.h \
@@ -259,6 +259,7 @@ core_reader = \
     core/reader/scene_json.c core/reader/scene_json.h \
     core/reader/scene_label.c core/reader/scene_label.h \
     core/reader/scene_shared.c \
+    core/reader/scene_sources.c \
     core/reader/scene_values.c
 
 # What the library and the command share; each links its own copy.

@@ -273,7 +273,17 @@ dist_man_MANS += tools/impinge-verify.1
 else
 EXTRA_DIST += tools/impinge-verify.1
 endif
-tools_impinge_verify_SOURCES = tools/verify/main.c
+tools_impinge_verify_SOURCES = \
+    core/common/search_path.c core/common/search_path.h \
+    tools/cli/build_tree.c tools/cli/build_tree.h \
+    tools/cli/file_lock.c tools/cli/file_lock.h \
+    tools/cli/output_file.c tools/cli/output_file.h \
+    tools/cli/output_target.c tools/cli/output_target.h \
+    tools/verify/complain.c \
+    tools/verify/main.c \
+    tools/verify/receipt.c tools/verify/receipt.h \
+    tools/verify/rewrite.c tools/verify/rewrite.h \
+    tools/verify/run.c tools/verify/run.h
 tools_impinge_verify_CPPFLAGS = $(AM_CPPFLAGS) -DPROOF_DOUBLE
 tools_impinge_verify_LDADD = tools/libverify.la
 tools_libverify_la_SOURCES = \
@@ -301,6 +311,7 @@ tools_libverify_la_SOURCES = \
     tools/verify/statement.c tools/verify/statement.h \
     tools/verify/statement_internal.h \
     tools/verify/statement_stage.c \
+    tools/verify/tighten.c tools/verify/tighten.h \
     tools/verify/walk.c tools/verify/walk.h \
     tools/verify/words.c tools/verify/words.h
 tools_libverify_la_CPPFLAGS = $(AM_CPPFLAGS) -DPROOF_DOUBLE

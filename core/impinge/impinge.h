@@ -722,10 +722,16 @@ IMP_EXPORT imp_code imp_query_keep_proof(imp_query *query, imp_error *error);
 /* Takes bytes of a certificate, in order; called by the thread that writes it. */
 typedef void (*imp_proof_sink)(void *context, const void *bytes, size_t size);
 
+/* Returns the lines of imp_query_write_proof that name the plugin files of the types which the
+ * scene uses, "type NAME HASH FILE", each with its end; HASH is the SHA-256 of the file's bytes,
+ * and FILE its name without the folder. Types that are linked in have none. NULL on error:
+ * IMP_ERROR_FILE, a plugin's file cannot be read any more. The caller frees the text by free(). */
+IMP_EXPORT char *imp_scene_sources(const imp_scene *scene, imp_error *error);
+
 /* Writes the certificate of a query that keeps a proof and has ended; of an undecided one up to
  * t_lower. `stated` (NULL: nothing) are lines of text, each with its end, that name what was asked:
- * "scene HASH", "type NAME HASH"; the verifier compares, and trusts none. IMP_ERROR_PLUGIN: a type
- * failed to tell its formula; then what was written is no certificate. */
+ * "scene HASH", then those of imp_scene_sources; the verifier compares, and trusts none.
+ * IMP_ERROR_PLUGIN: a type failed to tell its formula; then what was written is no certificate. */
 IMP_EXPORT imp_code imp_query_write_proof(const imp_query *query, const char *stated,
                                           imp_proof_sink write, void *context, imp_error *error);
 

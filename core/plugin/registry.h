@@ -6,8 +6,8 @@
 #include <impinge/impinge.h>
 
 #include "core/base/arena_store.h"
+#include "core/common/search_path.h"
 #include "core/plugin/reading_limits.h"
-#include "core/plugin/search_path.h"
 #include "core/plugin/worker_pool.h"
 
 /* Types by name

@@ -76,14 +76,110 @@ near='sphere center=2.01,0.1,0.2'
     [[ $output == "refused at byte "*": 'a' piece 0, "*"claimed apart by 0.0005: "* ]]
 }
 
-@test "a certificate is a receipt for its scene" {
+# sealed OLD NEW SED-EXPRESSION: a copy with other lines, and the checksum that belongs to them.
+sealed() {
+    head -c -32 "$1" | sed "$3" >"$2"
+    # shellcheck disable=SC2059 # the digest becomes escapes
+    printf "$(sha256sum "$2" | cut -c 1-64 | sed 's/../\\x&/g')" >>"$2"
+}
+
+@test "a certificate is a receipt for its scene, version and plugins" {
+    mkdir plugins
+    cp "$top_builddir"/plugins/.libs/{sphere,translate}.so plugins
     scene >scene.json
-    "$IMPINGE" solve scene.json --gamma 1e-2 --proof receipt
-    run -0 verify receipt scene.json --quiet
+    "$IMPINGE" solve scene.json --gamma 1e-2 --plugin-path plugins --proof receipt
+    [ "$(grep -ac '^type \(sphere\|translate\) [0-9a-f]\{64\} \(sphere\|translate\).so$' receipt)" -eq 2 ]
+    run -0 verify receipt scene.json --quiet --plugin-path plugins
     [ "$output" = holds ]
+    run -0 verify receipt scene.json --quiet # the build's own, of the same bytes
+    printf x >>plugins/translate.so
+    run -3 verify receipt scene.json --plugin-path plugins
+    [ "$output" = "stale: the type translate has changed: plugins/translate.so" ]
+    run -0 verify receipt --quiet # it still holds
+    sealed receipt older 's/^program impinge .*/program impinge 0.0.1/'
+    run -3 verify older scene.json
+    [[ $output == "stale: the version has changed: "*", not 0.0.1" ]]
+    sealed receipt gone 's/^\(type sphere .*\) sphere.so/\1 globe.so/'
+    run -3 verify gone scene.json
+    [ "$output" = "stale: the type sphere: its plugin globe.so is not found; name its folder by --plugin-path" ]
+    sealed receipt unnamed '/^scene /d'
+    run -3 verify unnamed scene.json
+    [ "$output" = "stale: the certificate names no scene" ]
     scene '"id": 7,' >scene.json
     run -3 verify receipt scene.json
     [ "$output" = "stale: the scene has changed" ]
+    run -2 verify receipt none.json
+}
+
+@test "a receipt names a type once, and files without a folder" {
+    "$IMPINGE" pair sphere "$near" --gamma 1e-2 --proof clear.proof
+    [ "$(grep -ac '^type ' clear.proof)" -eq 1 ]
+    for line in 'type sphere 0' 'type sphere 0 ../sphere.so' 'type sphere'; do
+        sealed clear.proof bad "s|^type .*|$line|"
+        run -1 verify bad
+        [[ $output == "refused at byte "* ]]
+    done
+}
+
+@test "--tighten writes a shorter certificate of the same claim, which takes fewer tests" {
+    "$IMPINGE" solve "$top_srcdir"/tools/data/teapot.json --proof teapot.proof
+    run -0 verify teapot.proof
+    claim=("${lines[@]:0:3}")
+    run -0 verify teapot.proof --tighten short.proof
+    [[ $output == *"tightened: "*" leaves to "*" tests to "*" bytes to $(stat -c %s short.proof)" ]]
+    read -r _ leaves _ _ fewer_leaves tests _ _ fewer_tests _ <<<"${lines[-1]//,/}"
+    [ $((2 * fewer_leaves)) -lt "$leaves" ]
+    [ "$fewer_tests" -lt "$tests" ]
+    [ "$(stat -c %s short.proof)" -lt "$(stat -c %s teapot.proof)" ]
+    run -0 verify short.proof --threads 2
+    [ "${lines[*]:0:3}" = "${claim[*]}" ]
+    [[ ${lines[3]} == *" surfaces, $fewer_leaves leaves, $fewer_tests tests" ]]
+    run -0 verify - --quiet --tighten again.proof <short.proof
+    [ "$output" = holds ]
+    [ "$(stat -c %s again.proof)" -le "$(stat -c %s short.proof)" ]
+}
+
+@test "--tighten keeps what is assumed, and all pieces" {
+    local some
+    some=$("$IMPINGE" info subdivision --json | jq -r '.types[0].example')
+    "$IMPINGE" pair "$some" 'sphere center=9,0,0' --gamma 1e-2 --proof said.proof
+    run -0 verify said.proof --tighten said.short
+    [ "${lines[0]}" = "holds assuming subdivision" ]
+    run -0 verify said.short --quiet
+    [ "$output" = "holds assuming subdivision" ]
+    "$IMPINGE" pair 'box ! rotate axis=1,2,3 rate=2' 'box center=1.9,0,0' --gamma 1e-2 --proof box.proof
+    run -0 verify box.proof --tighten box.short --quiet
+    [ "$output" = holds ]
+    run -0 verify box.short --quiet
+    [ "$output" = holds ]
+}
+
+@test "--tighten leaves no part of a file, and writes over no certificate that is read" {
+    "$IMPINGE" pair sphere "$near" --gamma 1e-2 --proof clear.proof
+    cp clear.proof kept
+    run -2 verify clear.proof --tighten clear.proof
+    [ "$output" = "impinge-verify: clear.proof: is the certificate that is read; name another file" ]
+    ln -s clear.proof link
+    run -2 verify clear.proof --tighten link
+    cmp clear.proof kept
+    run -2 verify clear.proof --tighten -
+    [[ $output == *"name a file" ]]
+    run -2 verify clear.proof --tighten none/out
+    [[ $output == *"none/out: No such file or directory" ]]
+    sealed clear.proof false 's/^apart .*/apart 1/'
+    echo mine >out
+    run -1 verify false --tighten out
+    [ "$(cat out)" = mine ]
+    run -2 verify missing --tighten out
+    [ "$(cat out)" = mine ]
+    run -3 verify clear.proof "$top_srcdir"/tools/data/teapot.json --tighten out
+    [ "$(cat out)" = mine ]
+    [ ! -e out.part ]
+    ln -s elsewhere planted.part
+    run -2 verify clear.proof --tighten planted
+    [[ $output == *"planted.part: is in the way, and not a file of ours; remove it" ]]
+    run -2 verify clear.proof --tighten /dev/full
+    [[ $output == *"/dev/full: No space left on device"* ]]
 }
 
 @test "--text prints the tree, and bad usage is told" {

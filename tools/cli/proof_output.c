@@ -5,6 +5,7 @@
 #include "tools/cli/proof_output.h"
 
 #include <stdio.h>
+#include <stdlib.h>
 #include <string.h>
 
 #include "core/common/sha256.h"
@@ -25,12 +26,21 @@ exit_status proof_output_begin(imp_query *query, const arguments *args)
     return complain_of(&error, args->verb->name);
 }
 
-/* Appends "WORD HASH" for a file that can be read. */
-static void state_file(const char *word, const char *path, char *stated, size_t size)
+/* Returns the lines that name the scene's file, if it is one, and the plugins' files; the caller
+ * frees them. NULL: complained of. */
+static char *stated_of(const imp_scene *scene, const arguments *args)
 {
-    char text[SHA256_TEXT];
-    const size_t used = strlen(stated);
-    if (sha256_file(path, text)) snprintf(stated + used, size - used, "%s %s\n", word, text);
+    imp_error error = {0};
+    char hash[SHA256_TEXT], *all;
+    const char *path = args->operand_count == 1 ? args->operands[0] : "-";
+    const bool named = strcmp(path, "-") != 0 && sha256_file(path, hash);
+    char *types = imp_scene_sources(scene, &error);
+    if (types == NULL) return complain_of(&error, args->verb->name), NULL;
+    const int size = asprintf(&all, "%s%s%s%s", named ? "scene " : "", named ? hash : "",
+                              named ? "\n" : "", types);
+    free(types);
+    if (size < 0) return complain_of_memory(args->verb->name), NULL;
+    return all;
 }
 
 static void put(void *context, const void *bytes, size_t size)
@@ -44,14 +54,13 @@ exit_status proof_output_write(const imp_query *query, const imp_scene *scene,
     const option_value *path = arguments_option(args, "proof");
     output_file out;
     imp_error error = {0};
-    char stated[200] = "";
-    (void)scene;
     if (path == NULL) return EXIT_ANSWERED;
-    if (args->operand_count == 1 && strcmp(args->operands[0], "-") != 0)
-        state_file("scene", args->operands[0], stated, sizeof stated);
+    char *stated = stated_of(scene, args);
+    if (stated == NULL) return EXIT_DATA;
     exit_status status = output_file_begin(&out, path->text, args->verb->name);
-    if (status != EXIT_ANSWERED) return status;
+    if (status != EXIT_ANSWERED) return free(stated), status;
     const imp_code code = imp_query_write_proof(query, stated, put, out.file, &error);
+    free(stated);
     status = output_file_end(&out, code == IMP_SUCCESS);
     return code == IMP_SUCCESS ? status : complain_of(&error, args->verb->name);
 }

@@ -41,7 +41,7 @@ static bool join(char *path, size_t size, const char *folder, const char *name)
 
 /* --- The target ------------------------------------------------------------------------------- */
 
-/* Finds the user's plugin folder by the rule of core/plugin/search_path.h. */
+/* Finds the user's plugin folder by the rule of core/common/search_path.h. */
 static bool user_folder(char *folder, size_t size)
 {
     const char *data = secure_getenv("XDG_DATA_HOME"), *home = secure_getenv("HOME");

@@ -34,6 +34,7 @@ unsigned input_byte(input *in)
     }
     ++in->at;
     sha256_add(&in->hash, &(uint8_t){(uint8_t)c}, 1);
+    if (in->copy != NULL) in->copy(in->copy_context, (uint8_t)c);
     return (unsigned)c;
 }
 
@@ -87,6 +88,7 @@ bool input_end(input *in)
 {
     uint8_t digest[SHA256_BYTES];
     sha256_end(&in->hash, digest);
+    in->copy = NULL;
     for (int k = 0; k < SHA256_BYTES; ++k)
         if (input_byte(in) != digest[k] && !input_is_refused(in))
             return input_refuse(in, "the checksum is not that of the bytes before it");

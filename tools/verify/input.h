@@ -17,6 +17,8 @@ typedef struct input {
     sha256 hash;
     char fault[1400]; /* empty: none. What is read afterwards is 0. */
     uint64_t fault_at;
+    void (*copy)(void *context, uint8_t byte); /* takes each byte but the checksum; NULL: none */
+    void *copy_context;
 } input; /* input_begin, then read */
 
 void input_begin(input *in, FILE *file);

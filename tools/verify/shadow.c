@@ -125,6 +125,7 @@ const char *areas_add(areas *all, const place *of, const box3 *where, const aim 
     area *grown = array_reserve(all->at, all->count, &all->room, sizeof *grown);
     if (grown == NULL) return "memory ran out";
     all->at = grown;
+    all->cast += 1;
     grown[all->count++] = (area){*of, *where, cast(k, a)};
     return NULL;
 }

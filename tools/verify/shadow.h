@@ -64,6 +64,7 @@ typedef struct area {
 typedef struct areas {
     area *at;
     size_t count, room;
+    unsigned long cast; /* boxes projected so far: what a proof costs, about */
     kept *memory;
 } areas; /* freed by free(at) */
 

@@ -41,6 +41,11 @@ static bool read_source(statement *s, input *in, const char *kind, char **rest)
     if (strcmp(kind, "type") == 0)
         words_copy(in, made->type, sizeof made->type, words_take(in, rest));
     words_copy(in, made->hash, sizeof made->hash, words_take(in, rest));
+    if (strcmp(kind, "type") != 0) return !input_is_refused(in);
+    if (*rest == NULL || strchr(*rest, '/') != NULL)
+        return input_refuse(in, "a type names no file, or a folder");
+    words_copy(in, made->file, sizeof made->file, *rest);
+    *rest = NULL;
     return !input_is_refused(in);
 }
 

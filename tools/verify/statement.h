@@ -45,6 +45,7 @@ typedef struct point {
 
 typedef struct source {
     char kind[8], type[64], hash[SHA256_TEXT]; /* "scene", "" or "type", its name */
+    char file[256];                            /* of a type: the plugin's, without its folder */
 } source;
 
 typedef struct statement {

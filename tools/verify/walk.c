@@ -8,7 +8,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-enum { OP_TIME = 4, OP_AXIS, OP_SAME, OP_ALONE, DEPTH_MAX = 4000, LEAVES_A_SHARE = 16 };
+enum { DEPTH_MAX = 4000, LEAVES_A_SHARE = 16 };
 
 typedef struct pair {
     walk *w;
@@ -49,22 +49,24 @@ static bool take_leaf(pair *p, const cell *c, unsigned op)
 {
     walk *w = p->w;
     prover *q = &p->prover;
-    if (op == OP_AXIS) {
+    if (op == WALK_AXIS) {
         for (int i = 0; i < 3; ++i) p->axis[i] = (int16_t)input_16(w->in);
         p->has_axis = true;
     }
-    if (op == OP_SAME && !p->has_axis) return input_refuse(w->in, "a leaf before had no axis");
-    if (w->text != NULL && op == OP_ALONE) fprintf(w->text, "leaf\n");
-    if (w->text != NULL && op != OP_ALONE)
+    if (op == WALK_SAME && !p->has_axis) return input_refuse(w->in, "a leaf before had no axis");
+    if (w->text != NULL && op == WALK_ALONE) fprintf(w->text, "leaf\n");
+    if (w->text != NULL && op != WALK_ALONE)
         fprintf(w->text, "leaf axis %g %g %g\n", p->axis[0], p->axis[1], p->axis[2]);
-    for (int i = 0; i < 3; ++i) q->axis[i] = op == OP_ALONE ? 0 : p->axis[i];
+    for (int i = 0; i < 3; ++i) q->axis[i] = op == WALK_ALONE ? 0 : p->axis[i];
     if (w->leaves % LEAVES_A_SHARE == 0) prover_forget(q);
     const bool mine = w->leaves++ / LEAVES_A_SHARE % w->shares == w->share;
     if (w->progress != NULL) w->progress(w->in->at);
     if (!mine || !p->is_said || input_is_refused(w->in)) return !input_is_refused(w->in);
     const bool proved = prove_apart(q, c);
     w->tests += q->tests;
-    return proved || refuse(p);
+    if (!proved) return refuse(p);
+    if (w->watch != NULL) w->watch->leaf(w->watch->context, q, c, op != WALK_ALONE);
+    return true;
 }
 
 /* --- Trees ------------------------------------------------------------------------------------ */
@@ -85,20 +87,35 @@ static bool take_entry(pair *p, const cell *c, int depth)
     input *in = p->w->in;
     cell half[2];
     const unsigned op = input_byte(in);
-    if (op > OP_ALONE || depth > DEPTH_MAX)
-        return input_refuse(in, op > OP_ALONE ? "an entry is unknown" : "the tree is too deep");
+    if (op > WALK_ALONE || depth > DEPTH_MAX)
+        return input_refuse(in, op > WALK_ALONE ? "an entry is unknown" : "the tree is too deep");
     if (input_is_refused(in)) return false;
-    if (op > OP_TIME) return take_leaf(p, c, op);
+    if (op > WALK_TIME) return take_leaf(p, c, op);
     cut by = {(int)op / 2, (int)op % 2, NAN};
-    if (op == OP_TIME) by.at = c->t[0] + (c->t[1] - c->t[0]) * (input_16(in) / 65536.0);
+    const unsigned k16 = op == WALK_TIME ? input_16(in) : 0;
+    if (op == WALK_TIME) by.at = c->t[0] + (c->t[1] - c->t[0]) * (k16 / 65536.0);
     say_split(p, c, &by);
-    const bool is_pieces = op < OP_TIME && c->count[by.side] > 1;
+    const bool is_pieces = op < WALK_TIME && c->count[by.side] > 1;
     if (is_pieces && by.along != 0) return input_refuse(in, "pieces are divided along v");
     /* A half that is not smaller covers the same again. */
     cell_split(&p->prover, c, &by, half);
-    if (op == OP_TIME && !(c->t[0] <= by.at && by.at <= c->t[1]))
+    if (op == WALK_TIME && !(c->t[0] <= by.at && by.at <= c->t[1]))
         return input_refuse(in, "time is divided outside of the cell");
-    return take_entry(p, &half[0], depth + 1) && take_entry(p, &half[1], depth + 1);
+    const watch *told = p->is_said ? p->w->watch : NULL;
+    const uint8_t bytes[] = {(uint8_t)op, (uint8_t)(k16 >> 8), (uint8_t)k16};
+    if (told != NULL) told->split(told->context, bytes, op == WALK_TIME ? sizeof bytes : 1);
+    if (!take_entry(p, &half[0], depth + 1) || !take_entry(p, &half[1], depth + 1)) return false;
+    if (told != NULL) told->joined(told->context, &p->prover, c);
+    return true;
+}
+
+static bool take_tree(pair *p, const cell *c)
+{
+    const watch *told = p->is_said ? p->w->watch : NULL;
+    if (told != NULL) told->begun(told->context);
+    const bool good = take_entry(p, c, 0);
+    if (good && told != NULL) told->ended(told->context);
+    return good;
 }
 
 /* --- Pairs ------------------------------------------------------------------------------------ */
@@ -196,7 +213,7 @@ static bool take_pair(walk *w, size_t a, size_t b, const work *room)
         p.prover.order[side] = p.order[side];
     }
     if (good && p.is_said) cell_begin(&p.prover, &c);
-    good = good && take_entry(&p, &c, 0);
+    good = good && take_tree(&p, &c);
     for (int side = 0; side < 2; ++side) {
         free(p.order[side]);
         free(p.prover.areas[side].at);

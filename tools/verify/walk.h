@@ -7,6 +7,20 @@
 
 /* The trees of a certificate, read and proved leaf by leaf */
 
+/* Entries from 4 on (core/CERTIFICATE.md). */
+enum { WALK_TIME = 4, WALK_AXIS, WALK_SAME, WALK_ALONE };
+
+/* Is told of the entries of trees in order, but of those whose surfaces have no formulas. */
+typedef struct watch {
+    void *context;
+    void (*begun)(void *context);                                    /* a tree */
+    void (*split)(void *context, const uint8_t *bytes, size_t size); /* an entry that divides */
+    void (*leaf)(void *context, prover *p, const cell *c,
+                 bool named);                                /* proved; axis of p, if named */
+    void (*joined)(void *context, prover *p, const cell *c); /* both parts of a split ended */
+    void (*ended)(void *context);                            /* a tree */
+} watch;
+
 typedef struct walk {
     input *in;
     const statement *says;
@@ -14,6 +28,7 @@ typedef struct walk {
     unsigned share, shares;           /* this process proves every shares-th group of leaves */
     FILE *text;                       /* takes the tree, a line for each entry; NULL: none */
     void (*progress)(uint64_t bytes); /* called now and then; NULL: not */
+    const watch *watch;               /* NULL: none */
     uint64_t leaves, pairs, tests;
     bool *assumed; /* by stage: it is needed, and the certificate has no formula for it */
 } walk;

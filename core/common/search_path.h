@@ -1,7 +1,7 @@
 /* SPDX-FileCopyrightText: The Impinge authors
  * SPDX-License-Identifier: Apache-2.0 */
-#ifndef CORE_PLUGIN_SEARCH_PATH_H
-#define CORE_PLUGIN_SEARCH_PATH_H
+#ifndef CORE_COMMON_SEARCH_PATH_H
+#define CORE_COMMON_SEARCH_PATH_H
 
 #include <stdbool.h>
 #include <stddef.h>

@@ -3,7 +3,7 @@
 #include <config.h>
 
 #include "core/common/array.h"
-#include "core/plugin/search_path.h"
+#include "core/common/search_path.h"
 
 #include <dirent.h>
 #include <errno.h>
