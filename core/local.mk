@@ -89,6 +89,7 @@ core_plugin = \
     core/plugin/load_cache.c \
     core/plugin/load_probe.c core/plugin/load_probe.h \
     core/plugin/output_guard.c core/plugin/output_guard.h \
+    core/plugin/parameter_default.c \
     core/plugin/parameter_numbers.c core/plugin/parameter_numbers.h \
     core/plugin/parameter_table.c core/plugin/parameter_table.h \
     core/plugin/parameter_value.c \
@@ -245,6 +246,7 @@ core_reader = \
     core/reader/builder.c \
     core/reader/examine.c \
     core/reader/json_keys.c core/reader/json_keys.h \
+    core/reader/json_quick.c core/reader/json_quick.h \
     core/reader/instance_table.c core/reader/instance_table.h \
     core/reader/pipeline.c core/reader/pipeline.h \
     core/reader/pipeline_value.c core/reader/pipeline_value.h \

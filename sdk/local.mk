@@ -6,6 +6,7 @@
 # arithmetic of models as a static library.
 
 pkginclude_HEADERS = \
+    sdk/impinge/decimal.h \
     sdk/impinge/formula.h \
     sdk/impinge/formula_text.h \
     sdk/impinge/interval.h \

@@ -25,6 +25,7 @@ check_suites = \
     tests/unit/test_broad_phase \
     tests/unit/test_builder \
     tests/unit/test_contacts \
+    tests/unit/test_decimal \
     tests/unit/test_distance_maps \
     tests/unit/test_distance_windows \
     tests/unit/test_slips \
@@ -48,6 +49,7 @@ check_suites = \
     tests/unit/test_lanes \
     tests/unit/test_limits \
     tests/unit/test_locale \
+    tests/unit/test_json_quick \
     tests/unit/test_kept_instances \
     tests/unit/test_linked_in \
     tests/unit/test_load_cache \

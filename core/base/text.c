@@ -6,6 +6,7 @@
 
 #include <impinge/impinge.h>
 
+#include <math.h>
 #include <stdarg.h>
 #include <stdint.h>
 #include <stdio.h>
@@ -84,9 +85,41 @@ void text_append(char *buffer, size_t size, const char *format, ...)
     va_end(arguments);
 }
 
+/* Writes m / 10^k. */
+static void write_decimal(char *to, bool minus, uint64_t m, int k)
+{
+    char digits[24];
+    int count = 0;
+    for (; m > 0 || count <= k; m /= 10) digits[count++] = (char)('0' + m % 10);
+    if (minus) *to++ = '-';
+    while (count > k) *to++ = digits[--count];
+    if (k > 0) *to++ = '.';
+    while (count > 0) *to++ = digits[--count];
+    *to = '\0';
+}
+
+/* Lemma. Let m < 10^15 be whole and k <= 19, so that m and 10^k are doubles (10^19 = 2^19 5^19, and
+ * 5^19 < 2^53), and let their quotient round to x. Decimals of 15 digits are farther apart than
+ * doubles, so that the one nearest to x is m / 10^k, which "%.15g" writes: without an exponent from
+ * 1e-4 on, and without zeros behind the point, which k being least excludes too. */
+bool text_short_number(char to[TEXT_SHORT + 1], double x)
+{
+    const double size = fabs(x), most = 1e15;
+    double power = 1;
+    if (!(size >= 1e-4 && size < most) && !(size == 0 && !signbit(x))) return false;
+    for (int k = 0; k < 19 && size * power < most - 0.5; ++k, power *= 10) {
+        const uint64_t m = (uint64_t)(size * power + 0.5);
+        if ((double)m / power != size) continue;
+        write_decimal(to, x < 0, m, k);
+        return true;
+    }
+    return false;
+}
+
 text_number text_of_number(double x)
 {
     text_number text;
+    if (text_short_number(text.at, x)) return text;
     for (int digits = 15; digits <= 17; ++digits) {
         snprintf(text.at, sizeof text.at, "%.*g", digits, x);
         if (strtod(text.at, NULL) == x) break;

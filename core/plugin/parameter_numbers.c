@@ -86,9 +86,7 @@ imp_code parameter_numbers_read(const parameter_table *table, const imp_argument
     *values = (parameter_values){.count = table->count};
     values->value = calloc(table->count + 1, sizeof *values->value + sizeof *values->given);
     if (values->value != NULL) values->given = (bool *)(values->value + table->count + 1);
-    values->made = json_array();
-    imp_code code =
-        values->value != NULL && values->made != NULL ? IMP_SUCCESS : error_set_memory(error);
+    imp_code code = values->value != NULL ? IMP_SUCCESS : error_set_memory(error);
     if (code == IMP_SUCCESS) code = read_given(table, arguments, count, values, &fits, error);
     if (code == IMP_SUCCESS && fits) code = read_absent(table, at, values, &fits, error);
     if (code != IMP_SUCCESS || !fits) parameters_clear(values);

@@ -61,6 +61,12 @@ static imp_code refuse_unknown(const parameter_table *table, const char *type, c
     return IMP_SUCCESS;
 }
 
+imp_code parameters_keep(parameter_values *values, json_t *json, imp_error *error)
+{
+    if (values->made == NULL) values->made = json_array();
+    return json_array_append_new(values->made, json) == 0 ? IMP_SUCCESS : error_set_memory(error);
+}
+
 imp_code parameters_read_absent(const imp_parameter *row, const place *at, parameter_values *values,
                                 imp_value *value, imp_error *error)
 {
@@ -69,12 +75,15 @@ imp_code parameters_read_absent(const imp_parameter *row, const place *at, param
     if (row->default_value == NULL)
         return place_error(at, error, IMP_ERROR_SCENE, "'%s' is missing; it must be %s", row->name,
                            parameter_shape_words(row, 0).at);
+    bool is_plain;
+    const imp_code code = parameter_default_plain(row, value, &is_plain, error);
+    if (code != IMP_SUCCESS || is_plain) return code;
     place member = place_key(at, row->name);
     json_t *json;
     /* The registry has seen this default parse: what fails now is memory, whatever jansson says. */
     if (parameters_read_default(row, &member, &json, NULL) != IMP_SUCCESS)
         return error_set_memory(error);
-    if (json_array_append_new(values->made, json) != 0) return error_set_memory(error);
+    if (parameters_keep(values, json, NULL) != IMP_SUCCESS) return error_set_memory(error);
     return parameters_read_value(row, json, &member, value, error);
 }
 
@@ -91,7 +100,7 @@ static imp_code whole_name(const imp_parameter *row, const char *folder, paramet
     strcat(strcpy(path, folder), name);
     json_t *whole = json_string_nocheck(path); /* folders need not be UTF-8 */
     free(path);
-    if (json_array_append_new(values->made, whole) != 0) return error_set_memory(error);
+    if (parameters_keep(values, whole, NULL) != IMP_SUCCESS) return error_set_memory(error);
     *json = whole;
     return IMP_SUCCESS;
 }
@@ -123,10 +132,8 @@ imp_code parameters_read(const parameter_table *table, const char *type, const j
     *values = (parameter_values){.count = table->count};
     values->value = calloc(table->count + 1, sizeof *values->value + sizeof *values->given);
     if (values->value != NULL) values->given = (bool *)(values->value + table->count + 1);
-    values->made = json_array();
-    code = values->value != NULL && values->made != NULL
-               ? read_all(table, object, folder, at, values, error)
-               : error_set_memory(error);
+    code = values->value != NULL ? read_all(table, object, folder, at, values, error)
+                                 : error_set_memory(error);
     if (code != IMP_SUCCESS) parameters_clear(values);
     return code;
 }

@@ -28,7 +28,7 @@ typedef struct parameter_values {
     imp_value *value;
     bool *given; /* of each row: the object has it */
     size_t count;
-    json_t *made; /* JSON that is not in the object: presets, names of files made whole */
+    json_t *made; /* JSON that is not in the object: presets, names of files made whole; or NULL */
 } parameter_values;
 
 /* Reads the parameters of the type called `type` from `object`, which is at `at`. Relative names of

@@ -129,12 +129,16 @@ static imp_status call_create(const type_view *view, isolated *stand_in, const i
     return status;
 }
 
+/* Whether all bytes are marks: the first is, and each is like the one before it. */
+static bool is_marked(const unsigned char *bytes, size_t size)
+{
+    return bytes[0] == MARK && memcmp(bytes, bytes + 1, size - 1) == 0;
+}
+
 static bool is_whole(const guarded_error *g)
 {
-    for (size_t k = 0; k < sizeof g->before; ++k)
-        if (g->before[k] != MARK) return false;
-    for (size_t k = 0; k < sizeof g->after; ++k)
-        if (g->after[k] != MARK) return false;
+    if (!is_marked(g->before, sizeof g->before) || !is_marked(g->after, sizeof g->after))
+        return false;
     /* A text that does not end, and something behind it: the text went on there. */
     return (g->why.text[sizeof g->why.text - 1] == '\0' || g->why.note_count == 0) &&
            (g->why.note[sizeof g->why.note - 1] == '\0' || g->why.is_repeatable == 0);

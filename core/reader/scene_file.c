@@ -10,6 +10,7 @@
 #include "core/plugin/json_describe.h"
 #include "core/plugin/parameters.h"
 #include "core/reader/json_keys.h"
+#include "core/reader/json_quick.h"
 #include "core/reader/pipeline.h"
 #include "core/reader/required_plugins.h"
 #include "core/reader/scene_file.h"
@@ -169,7 +170,8 @@ static size_t next_part(void *to, size_t size, void *context)
 {
     parted_text *text = context;
     const size_t n = size < text->left ? size : text->left;
-    reading_budget_take(text->budget, json_size_parsed(text->at, n));
+    if (text->budget->limits.bytes > 0)
+        reading_budget_take(text->budget, json_size_parsed(text->at, n));
     if (!reading_budget_allows(text->budget, 0)) return (size_t)-1;
     memcpy(to, text->at, n);
     text->at += n;
@@ -180,40 +182,45 @@ static size_t next_part(void *to, size_t size, void *context)
 static json_t *parse(const char *text, size_t length, const char *name, reading_budget *budget,
                      imp_error *error)
 {
-    json_error_t fault;
+    json_error_t fault = {.line = 0};
+    json_quick_end end;
     parted_text parts = {text, length, budget};
     reading_budget_take(budget, length);
+    json_t *root = json_quick_parse(text, length, budget, &end);
     errno = 0; /* jansson tells a few failed allocations as errors of syntax */
-    json_t *root = json_load_callback(next_part, &parts, PARAMETERS_JSON_FLAGS, &fault);
+    if (end == JSON_QUICK_LEFT)
+        root = json_load_callback(next_part, &parts, PARAMETERS_JSON_FLAGS, &fault);
     if (root != NULL) return root;
     const place at = place_document(name);
     if (reading_budget_is_over(budget))
         reading_budget_refuse(budget, &at, error);
-    else if (errno == ENOMEM)
+    else if (errno == ENOMEM || end == JSON_QUICK_NO_MEMORY)
         error_set_memory(error);
     else
         refuse_syntax(name, &fault, error);
     return NULL;
 }
 
-FP_APART static imp_scene *from_json(imp_registry *registry, const char *text, size_t length,
-                                     const char *name, imp_error *error)
+static json_t *parse_scene(const char *text, size_t length, const char *name,
+                           reading_budget *budget, imp_error *error)
 {
-    if (registry == NULL || text == NULL || name == NULL) {
-        error_set_missing(error, "imp_scene_from_json");
-        return NULL;
-    }
     if (length >= 3 && memcmp(text, "\xEF\xBB\xBF", 3) == 0) { /* a byte order mark */
         text += 3;
         length -= 3;
     }
-    if (is_blank(text, length)) {
-        error_set(error, IMP_ERROR_SCENE, "%.400s: is empty, must be a scene, {\"bodies\": [...]}",
-                  name);
-        return NULL;
-    }
+    if (!is_blank(text, length)) return parse(text, length, name, budget, error);
+    error_set(error, IMP_ERROR_SCENE, "%.400s: is empty, must be a scene, {\"bodies\": [...]}",
+              name);
+    return NULL;
+}
+
+/* Frees `owned`, which may be the text, once it is parsed. */
+FP_APART static imp_scene *from_json(imp_registry *registry, const char *text, size_t length,
+                                     const char *name, char *owned, imp_error *error)
+{
     reading_budget budget = reading_budget_begin(registry);
-    json_t *root = parse(text, length, name, &budget, error);
+    json_t *root = parse_scene(text, length, name, &budget, error);
+    free(owned);
     if (root == NULL) return NULL;
     imp_scene *scene = scene_of_text(registry, root, name, &budget, error);
     json_decref(root);
@@ -223,8 +230,12 @@ FP_APART static imp_scene *from_json(imp_registry *registry, const char *text, s
 imp_scene *imp_scene_from_json(imp_registry *registry, const char *text, size_t length,
                                const char *name, imp_error *error)
 {
+    if (registry == NULL || text == NULL || name == NULL) {
+        error_set_missing(error, "imp_scene_from_json");
+        return NULL;
+    }
     const fp_environment environment = fp_environment_enter();
-    imp_scene *scene = from_json(registry, text, length, name, error);
+    imp_scene *scene = from_json(registry, text, length, name, NULL, error);
     fp_environment_leave(&environment);
     return scene;
 }
@@ -251,7 +262,8 @@ imp_scene *imp_scene_from_file(imp_registry *registry, const char *path, imp_err
         return NULL;
     }
     if (file_text_read(path, &text, &length, error) != IMP_SUCCESS) return NULL;
-    imp_scene *scene = imp_scene_from_json(registry, text, length, path, error);
-    free(text);
+    const fp_environment environment = fp_environment_enter();
+    imp_scene *scene = from_json(registry, text, length, path, text, error);
+    fp_environment_leave(&environment);
     return scene;
 }

@@ -128,6 +128,19 @@ static imp_code check_parents(const scene_bodies *b, const place *at)
     return scene_bodies_refuse_cycle(b, body, &member);
 }
 
+/* Frees what is not asked for again, so that the values of all bodies, which take more than the
+ * bodies, are not held beside these: of a body that was added only its parent is left to read. */
+static void drop_body(json_t *bodies, size_t i)
+{
+    json_t *body = json_array_get(bodies, i);
+    if (json_object_get(body, "parent") == NULL) {
+        json_array_set_new(bodies, i, json_null());
+        return;
+    }
+    json_object_del(body, "surfaces");
+    json_object_del(body, "maps");
+}
+
 static imp_code add_bodies(scene_bodies *b, const json_t *root, const place *at)
 {
     json_t *bodies;
@@ -137,6 +150,7 @@ static imp_code add_bodies(scene_bodies *b, const json_t *root, const place *at)
     for (size_t i = 0; i < json_array_size(bodies) && code == IMP_SUCCESS; ++i) {
         const place element = place_index(&member, i);
         code = add_body(b, json_array_get(bodies, i), &element);
+        if (code == IMP_SUCCESS) drop_body(bodies, i);
     }
     if (code == IMP_SUCCESS) code = set_parents(b, bodies, &member);
     if (code == IMP_SUCCESS) code = check_parents(b, &member);
@@ -175,7 +189,7 @@ static imp_code ignore_pairs(scene_bodies *b, const json_t *root, const place *a
     return code;
 }
 
-imp_code scene_json_read(scene_bodies *b, const json_t *root, const place *at)
+imp_code scene_json_read(scene_bodies *b, json_t *root, const place *at)
 {
     imp_code code = scene_instances_begin(&b->instances, root, at);
     if (code == IMP_SUCCESS) code = add_bodies(b, root, at);

@@ -7,7 +7,8 @@
 
 /* The bodies of a scene as JSON
  * =============================
- * Everything of the scene at `at` under "define", "bodies" and "ignore". */
-imp_code scene_json_read(scene_bodies *b, const json_t *root, const place *at);
+ * Everything of the scene at `at` under "define", "bodies" and "ignore". Values of bodies are freed
+ * as soon as they are read: the bodies of `root` are of no use after that. */
+imp_code scene_json_read(scene_bodies *b, json_t *root, const place *at);
 
 #endif

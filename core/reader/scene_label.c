@@ -4,20 +4,17 @@
 
 #include "core/reader/scene_label.h"
 
-#include <inttypes.h>
-#include <math.h>
 #include <stdio.h>
 #include <string.h>
 
+#include "core/base/text.h"
 #include "core/base/unconst.h"
 
-/* Writes a number as "%.15g" does. A whole one is written as such, which takes a quarter of the
- * time. False: it is too long. */
+/* Writes a number as "%.15g" does. False: it is too long. */
 static bool write_number(char *text, size_t size, double x)
 {
-    const bool is_whole = fabs(x) < 1e15 && floor(x) == x && !(x == 0 && signbit(x));
-    const int length =
-        is_whole ? snprintf(text, size, "%" PRId64, (int64_t)x) : snprintf(text, size, "%.15g", x);
+    if (size > TEXT_SHORT && text_short_number(text, x)) return true;
+    const int length = snprintf(text, size, "%.15g", x);
     return length >= 0 && (size_t)length < size;
 }
 
@@ -66,7 +63,10 @@ static void label_parameter(char label[INSTANCE_LABEL_MAX], const char *name, co
                             const imp_argument *argument)
 {
     char text[120];
-    const size_t head = (size_t)snprintf(text, sizeof text, " %.40s=", name);
+    const size_t length = strlen(name), most = 40, head = 2 + (length < most ? length : most);
+    text[0] = ' ';
+    memcpy(text + 1, name, head - 2);
+    strcpy(text + head - 1, "=");
     const size_t room = sizeof text - head;
     const bool fits = argument != NULL       ? write_argument(text + head, room, argument)
                       : json_is_array(value) ? write_list(text + head, room, value)

@@ -3,11 +3,10 @@
 
 #include "plugins/common/csv_cell.h"
 
-#include <locale.h>
-#include <math.h>
-#include <stdlib.h>
 #include <string.h>
 #include <strings.h>
+
+#include <impinge/decimal.h>
 
 char csv_separator_of(const char *line)
 {
@@ -34,20 +33,9 @@ bool csv_cell_next(const char **next, char separator, csv_cell *cell)
     return true;
 }
 
-enum { CSV_NUMBER_MAX = 100 };
-
-/* Checks the text first, since strtod depends on the locale and also accepts "nan" and "inf". */
 bool csv_cell_number(const csv_cell *cell, double *number)
 {
-    char text[CSV_NUMBER_MAX], *end;
-    if (cell->length == 0 || cell->length >= sizeof text) return false;
-    memcpy(text, cell->text, cell->length);
-    text[cell->length] = '\0';
-    if (text[strspn(text, "+-.0123456789eE")] != '\0') return false;
-    char *point = strchr(text, '.');
-    if (point != NULL) *point = *localeconv()->decimal_point;
-    *number = strtod(text, &end);
-    return end != text && *end == '\0' && isfinite(*number);
+    return imp_decimal_number(cell->text, cell->length, number);
 }
 
 static bool is_digit(char c) { return c >= '0' && c <= '9'; }

@@ -3,13 +3,14 @@
 
 #include "plugins/mesh/mesh_text.h"
 
-#include <locale.h>
+#include <impinge/decimal.h>
 
 static bool is_blank(char c) { return c == ' ' || c == '\t' || c == '\v' || c == '\f'; }
 
-static bool is_end(char c) { return c == '\n' || c == '\r'; }
+/* Whether c is certainly part of a word, which one comparison tells of nearly all that are. */
+static bool is_above_blanks(char c) { return (unsigned char)c > ' '; }
 
-static bool is_digit(char c) { return c >= '0' && c <= '9'; }
+static bool is_end(char c) { return c == '\n' || c == '\r'; }
 
 /* --- Lines ------------------------------------------------------------------------------------ */
 
@@ -33,12 +34,36 @@ static void pass_end(mesh_text *text)
     text->line += 1;
 }
 
+/* Returns the end of the line, if it is near and the line has neither comment nor NUL nor '\r';
+ * else NULL. */
+static const char *end_of_plain_line(const char *at, const char *end)
+{
+    enum { NEAR = 256 }; /* characters: searched once for each line, if it has no end */
+    const char *stop = memchr(at, '\n', end - at < NEAR ? (size_t)(end - at) : NEAR);
+    const size_t length = stop != NULL ? (size_t)(stop - at) : 0;
+    if (stop == NULL || memchr(at, '#', length) != NULL) return NULL;
+    return memchr(at, '\r', length) == NULL && memchr(at, '\0', length) == NULL ? stop : NULL;
+}
+
+/* Appends a line that end_of_plain_line found. False: no memory. */
+static bool append_plain_line(mesh_text *text, const char *stop, size_t *used)
+{
+    const size_t length = (size_t)(stop - text->at);
+    if (*used + length + 2 > text->capacity && !grow(text, *used + length)) return false;
+    memcpy(text->words + *used, text->at, length);
+    *used += length;
+    text->at = stop + 1;
+    text->line += 1;
+    return true;
+}
+
 /* Appends one line of the file, without comment and end, and leaves room for two more; false: no
  * memory. A NUL ends no line: it makes a word that is none. */
 static bool append_line(mesh_text *text, size_t *used)
 {
-    const char *at = text->at, *const end = text->end;
+    const char *at = text->at, *const end = text->end, *const stop = end_of_plain_line(at, end);
     size_t n = *used;
+    if (stop != NULL) return append_plain_line(text, stop, used);
     for (;;) {
         if (n + 3 > text->capacity && !grow(text, n)) return false;
         char *const words = text->words;
@@ -90,7 +115,7 @@ char *mesh_text_word(mesh_text *text)
     while (is_blank(*word)) ++word;
     if (*word == '\0') return NULL;
     char *stop = word;
-    while (*stop != '\0' && !is_blank(*stop)) ++stop;
+    while (is_above_blanks(*stop) || (*stop != '\0' && !is_blank(*stop))) ++stop;
     text->next = stop;
     if (*stop != '\0') {
         *stop = '\0';
@@ -101,53 +126,22 @@ char *mesh_text_word(mesh_text *text)
 
 /* --- Numbers ---------------------------------------------------------------------------------- */
 
-enum { NUMBER_MAX = 100, DIGITS_MAX = 15 };
-
-/* Lemma. 15 digits are below 2^53, and so a double exactly; so is a power of ten up to 10^22: their
- * quotient, rounded once, is the nearest double, as strtod answers it. False: the word is anything
- * else. */
-static bool read_short(const char *word, double *x)
-{
-    static const double power[] = {1e0, 1e1, 1e2,  1e3,  1e4,  1e5,  1e6,  1e7,
-                                   1e8, 1e9, 1e10, 1e11, 1e12, 1e13, 1e14, 1e15};
-    const bool minus = *word == '-';
-    int64_t all = 0;
-    int digits = 0, behind = 0;
-    bool is_behind = false;
-    for (word += minus || *word == '+'; *word != '\0'; ++word) {
-        if (*word == '.' && !is_behind) {
-            is_behind = true;
-            continue;
-        }
-        if (!is_digit(*word) || ++digits > DIGITS_MAX) return false;
-        all = 10 * all + (*word - '0');
-        behind += is_behind;
-    }
-    const double size = (double)all / power[behind];
-    *x = minus ? -size : size;
-    return digits > 0;
-}
-
 bool mesh_text_number(const char *word, double *x)
 {
-    char copy[NUMBER_MAX], *end;
-    if (read_short(word, x)) return true;
-    if (strlen(word) >= sizeof copy || word[strspn(word, "+-.0123456789eE")] != '\0') return false;
-    strcpy(copy, word);
-    char *point = strchr(copy, '.');
-    if (point != NULL) *point = *localeconv()->decimal_point;
-    *x = strtod(copy, &end);
-    return end != copy && *end == '\0' && isfinite(*x);
+    return imp_decimal_number(word, strlen(word), x);
 }
+
+enum { DIGITS_MAX = 15 }; /* of an integer */
 
 bool mesh_text_integer(const char *word, int64_t *k)
 {
     const bool minus = *word == '-';
-    const char *digit = word + (minus || *word == '+'), *const first = digit;
-    *k = 0;
-    for (; is_digit(*digit) && digit - first < DIGITS_MAX; ++digit) *k = 10 * *k + (*digit - '0');
-    if (minus) *k = -*k;
-    return digit != first && *digit == '\0';
+    const char *const first = word + (minus || *word == '+'), *const end = first + strlen(first);
+    uint64_t digits = 0;
+    if (end == first || end - first > DIGITS_MAX) return false;
+    if (imp_decimal_digits(first, end, &digits) != end) return false;
+    *k = minus ? -(int64_t)digits : (int64_t)digits;
+    return true;
 }
 
 imp_status mesh_text_point(mesh_text *text, double x[3], triangles_fault *fault)

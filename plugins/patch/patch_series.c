@@ -3,6 +3,8 @@
 
 #include "plugins/patch/patch_series.h"
 
+#include <string.h>
+
 #include <impinge/interval.h>
 
 /* Lemma (noise). In units of ROUNDING, as functions on the region, the computed
@@ -39,10 +41,11 @@ static double patch_sum_abs(const double *x, int count)
 void patch_set_series(patch *f, double *work)
 {
     const int n = f->degree[0], m = f->degree[1], lanes = f->lanes, row = (m + 1) * lanes;
-    double beta_u[PATCH_SIDE_MAX * PATCH_SIDE_MAX] = {0};
-    double beta_v[PATCH_SIDE_MAX * PATCH_SIDE_MAX] = {0};
+    double beta_u[PATCH_SIDE_MAX * PATCH_SIDE_MAX], beta_v[PATCH_SIDE_MAX * PATCH_SIDE_MAX];
     double shift[PATCH_SIDE_MAX], reach[PATCH_SIDE_MAX];
-    for (int k = 0; k < PATCH_SIDE_MAX; ++k) {
+    memset(beta_u, 0, (size_t)((n + 1) * (n + 1)) * sizeof *beta_u);
+    memset(beta_v, 0, (size_t)((m + 1) * (m + 1)) * sizeof *beta_v);
+    for (int k = 0; k <= n || k <= m; ++k) {
         shift[k] = chebyshev_shift_error(k);
         reach[k] = chebyshev_reach(k);
     }

@@ -22,7 +22,7 @@ unguarded_functions() { # FOLDER
     local plain=" imp_version imp_code_text imp_call_in_progress imp_registry_new
         imp_registry_open imp_registry_free imp_registry_limit_reading imp_registry_isolate imp_registry_type
         imp_registry_refusal imp_registry_warning imp_registry_fault imp_call_of_thread imp_call_read
-        imp_instance_free imp_scene_from_file
+        imp_instance_free
         imp_scene_free imp_scene_remark imp_scene_body_count imp_scene_body_name imp_scene_surface_count
         imp_scene_domain imp_options_get_default imp_query_free imp_query_get_result imp_query_pending
         imp_query_cancel imp_query_explain imp_query_keep_proof imp_query_exclude_pair imp_query_part_bodies imp_scene_ignores imp_scene_solve imp_scene_sources imp_clearance_options_get_default imp_clearance_count

@@ -313,6 +313,38 @@ START_TEST(lines_are_utf8_without_control_characters)
 }
 END_TEST
 
+START_TEST(short_numbers_are_written_as_by_printf)
+{
+    uint64_t state = suite_seed();
+    int written = 0;
+    const int times = suite_times(300000);
+    for (int k = 0; k < times; ++k) {
+        char found[TEXT_SHORT + 1], expected[40], word[40];
+        double x = random_between(&state, -1, 1) * random_power(&state, -16, 52);
+        snprintf(word, sizeof word, "%.*g", (int)(random_bits(&state) % 18), x);
+        x = strtod(word, NULL);
+        snprintf(expected, sizeof expected, "%.15g", x);
+        if (text_short_number(found, x)) {
+            ck_assert_msg(strcmp(found, expected) == 0 && strtod(found, NULL) == x, "%s: %s",
+                          expected, found);
+            ++written;
+        } else {
+            ck_assert_msg(strchr(expected, 'e') != NULL || strtod(expected, NULL) != x ||
+                              fabs(x) < 1e-4,
+                          "%s is not written", expected);
+        }
+    }
+    ck_assert_msg(2 * written > times, "only %d of %d", written, times);
+    char found[TEXT_SHORT + 1];
+    ck_assert(text_short_number(found, 0) && strcmp(found, "0") == 0);
+    ck_assert(!text_short_number(found, -0.0) && !text_short_number(found, NAN));
+    ck_assert(!text_short_number(found, INFINITY) && !text_short_number(found, 1e15));
+    ck_assert(text_short_number(found, -999999999999999) && strcmp(found, "-999999999999999") == 0);
+    ck_assert(text_short_number(found, 1e-4) && strcmp(found, "0.0001") == 0);
+    ck_assert(text_short_number(found, -0.000123456789012345) && strlen(found) < sizeof found);
+}
+END_TEST
+
 START_TEST(numbers_in_words_read_back_as_themselves)
 {
     uint64_t state = suite_seed();
@@ -385,4 +417,5 @@ SUITE_MAIN("parameters", every_code_has_its_phrase, numbers_are_taken_as_written
            unknown_names_are_refused_with_the_nearest, rows_longer_than_ours_are_stepped_over,
            complaints_of_a_type_get_their_place, a_place_too_long_to_print_is_cut,
            distances_count_changes_and_swaps, lines_are_utf8_without_control_characters,
-           numbers_in_words_read_back_as_themselves, errors_are_cut_between_characters)
+           short_numbers_are_written_as_by_printf, numbers_in_words_read_back_as_themselves,
+           errors_are_cut_between_characters)

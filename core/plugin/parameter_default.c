@@ -1,0 +1,119 @@
+/* SPDX-FileCopyrightText: The Impinge authors
+ * SPDX-License-Identifier: Apache-2.0 */
+#include <config.h>
+
+#include <stdlib.h>
+#include <string.h>
+
+#include <impinge/decimal.h>
+
+#include "core/plugin/parameters_internal.h"
+
+/* Plain defaults, read without an object of JSON: an instance that is made anew for each step of a
+ * simulation reads those of all parameters that are not given. */
+
+static const char *skip_blanks(const char *at) { return at + strspn(at, " \t\r\n"); }
+
+/* Reads one number that the row allows. NULL: there is none. */
+static const char *read_one(const imp_parameter *row, const char *at, double *x)
+{
+    imp_decimal d = {.fits = false};
+    at = skip_blanks(at);
+    const char *const end = imp_decimal_scan(at, at + strlen(at), &d);
+    if (end == NULL || !imp_decimal_value(&d, x) || !parameter_is_allowed(row, *x)) return NULL;
+    return skip_blanks(end);
+}
+
+/* Reads `count` numbers between brackets. False: the text is something else. */
+static bool read_list(const imp_parameter *row, const char *at, size_t count, double *x)
+{
+    at = skip_blanks(at);
+    for (size_t k = 0; k < count; ++k) {
+        if (*at != (k == 0 ? '[' : ',')) return false;
+        at = read_one(row, at + 1, &x[k]);
+        if (at == NULL) return false;
+    }
+    return *at == ']' && *skip_blanks(at + 1) == '\0';
+}
+
+static void take(imp_value *value, size_t count)
+{
+    value->count = count;
+    value->extent[0] = count;
+    for (uint32_t k = 1; k < IMP_RANK_MAX; ++k) value->extent[k] = 1;
+}
+
+/* Without memory the value stays without numbers, and has a count. */
+static bool take_numbers(imp_value *value, const double *x, size_t count)
+{
+    double *number = malloc(count * sizeof *number);
+    if (number != NULL) memcpy(number, x, count * sizeof *number);
+    value->number = number;
+    take(value, count);
+    return true;
+}
+
+static bool read_numbers(const imp_parameter *row, imp_value *value)
+{
+    enum { COUNT_MAX = 16 };
+    double x[COUNT_MAX];
+    if (row->rank == 1) {
+        const size_t count = row->extent[0];
+        const bool fits = count > 0 && count <= COUNT_MAX;
+        return fits && read_list(row, row->default_value, count, x) &&
+               take_numbers(value, x, count);
+    }
+    const char *const rest = read_one(row, row->default_value, x);
+    return rest != NULL && *rest == '\0' && take_numbers(value, x, 1);
+}
+
+static bool read_boolean(const imp_parameter *row, imp_value *value)
+{
+    const bool is_true = strcmp(row->default_value, "true") == 0;
+    const double x = is_true;
+    if (!is_true && strcmp(row->default_value, "false") != 0) return false;
+    return take_numbers(value, &x, 1);
+}
+
+/* Reads a string of ASCII without escapes. Its address and the string are one block. */
+static bool read_string(const imp_parameter *row, imp_value *value)
+{
+    const char *const text = row->default_value;
+    const size_t size = strlen(text);
+    if (size < 2 || text[0] != '"' || text[size - 1] != '"') return false;
+    for (size_t k = 1; k + 1 < size; ++k)
+        if (text[k] < ' ' || text[k] == '"' || text[k] == '\\' || text[k] > '~') return false;
+    take(value, 1);
+    const char **string = malloc(sizeof *string + size - 1);
+    value->string = string;
+    if (string == NULL) return true;
+    char *copy = (char *)(string + 1);
+    memcpy(copy, text + 1, size - 2);
+    copy[size - 2] = '\0';
+    string[0] = copy;
+    return true;
+}
+
+static bool read_plain(const imp_parameter *row, imp_value *value)
+{
+    switch (row->kind) {
+    case IMP_KIND_NUMBER:
+    case IMP_KIND_INTEGER:
+        return row->rank <= 1 && read_numbers(row, value);
+    case IMP_KIND_BOOLEAN:
+        return row->rank == 0 && read_boolean(row, value);
+    case IMP_KIND_STRING:
+        return row->rank == 0 && read_string(row, value);
+    default:
+        return false;
+    }
+}
+
+imp_code parameter_default_plain(const imp_parameter *row, imp_value *value, bool *is_plain,
+                                 imp_error *error)
+{
+    *is_plain = read_plain(row, value);
+    if (!*is_plain || value->number != NULL || value->string != NULL) return IMP_SUCCESS;
+    *value = (imp_value){.count = 0};
+    return error_set_memory(error);
+}
