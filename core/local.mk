@@ -174,6 +174,7 @@ core_broad_phase = \
     core/broad_phase/broad_phase.c core/broad_phase/broad_phase.h \
     core/broad_phase/candidate.c core/broad_phase/candidate.h \
     core/broad_phase/candidates.c core/broad_phase/candidates.h \
+    core/broad_phase/candidates_part.c \
     core/broad_phase/collect_frames.c \
     core/broad_phase/collect_pairs.c \
     core/broad_phase/collect_roots.c \

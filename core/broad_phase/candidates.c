@@ -97,35 +97,35 @@ static bool prepare(collection *all)
     return all->surfaces != NULL && all->sweep != NULL;
 }
 
-/* The largest slip that is small against gamma_clear and against gamma - gamma_clear. */
-static double slip_most(const imp_options *options)
+double collection_slip_most(const imp_options *options, bool may_rest)
 {
+    if (options->baseline != IMP_BASELINE_NONE || !may_rest) return -1;
     const double clear = tolerances_clear(options->gamma, options->gamma_clear);
     const double room = options->gamma - clear;
     return (clear < room ? clear : room) / TUNING_REST_SLIP;
 }
 
 imp_code candidates_find(candidate_list *list, imp_scene *scene, const imp_options *options,
-                         double gamma_clear, bool may_rest, const candidate_limit *limit,
+                         const candidate_search *search, const candidate_limit *limit,
                          imp_stats *stats, imp_error *error)
 {
     const bool models =
         options->baseline == IMP_BASELINE_NONE; /* the paper's algorithm has no frames */
     collection all = {.scene = scene,
-                      .slip_most = models && may_rest ? slip_most(options) : -1,
+                      .slip_most = collection_slip_most(options, search->may_rest),
                       .common_motion = models ? collection_common_motion(scene) : 0,
                       .options = options,
                       .limit = limit,
                       .stats = stats,
-                      .gamma_clear = gamma_clear,
+                      .gamma_clear = search->gamma_clear,
                       .list = list};
     bool done = false;
     imp_code code =
         prepare(&all) ? collection_add_surfaces(&all, &done, error) : error_set_memory(error);
     collection_count_rest(&all);
     if (done) code = collect_pairs(&all, &done, error);
-    if (done && models) code = collection_use_frames(&all, &done, error);
-    if (done) code = collection_make_roots(&all, &done, error);
+    if (done && models && !search->in_parts) code = collection_use_frames(&all, &done, error);
+    if (done && !search->in_parts) code = collection_make_roots(&all, &done, error);
     if (all.tree_ended && collection_must_end(&all)) code = IMP_SUCCESS, done = false;
     if (all.boxes != all.at_hand) free(all.boxes);
     free(all.surfaces);
@@ -133,67 +133,6 @@ imp_code candidates_find(candidate_list *list, imp_scene *scene, const imp_optio
     list->complete = done && code == IMP_SUCCESS;
     if (!list->complete) candidates_clear(list);
     return code;
-}
-
-/* --- Parts ------------------------------------------------------------------------------------ */
-
-/* The candidates of one side of some pairs of the same two bodies, which are neighbours in the
- * list. */
-typedef struct candidate_span {
-    const candidate *first;
-    size_t count;
-} candidate_span;
-
-static candidate_span span_of(const candidate_pair *pairs, size_t count, int side)
-{
-    const candidate *lo = pairs[0].side[side], *hi = lo;
-    for (size_t k = 1; k < count; ++k) {
-        const candidate *c = pairs[k].side[side];
-        lo = c < lo ? c : lo;
-        hi = c > hi ? c : hi;
-    }
-    return (candidate_span){lo, (size_t)(hi - lo) + 1};
-}
-
-/* Returns the part's own candidate, with a tree, for one of the whole list. NULL: no memory. */
-static candidate *own_candidate(candidate *slot, const candidate *from, imp_stats *stats)
-{
-    if (slot->tree != NULL) return slot;
-    *slot = (candidate){
-        .body = from->body, .surface = from->surface, .left_out = from->left_out, .eval_error = -1};
-    tree_growth growth = {0};
-    if (tree_new_from_root(from->tree, &slot->tree, &growth, NULL) != IMP_SUCCESS) return NULL;
-    stats->bytes += growth.bytes;
-    return slot;
-}
-
-imp_code candidates_part(candidate_list *list, const candidate_list *whole, size_t first,
-                         size_t count, imp_stats *stats, imp_error *error)
-{
-    const candidate_pair *pairs = whole->pairs + first;
-    const candidate_span span[2] = {span_of(pairs, count, 0), span_of(pairs, count, 1)};
-    *list = (candidate_list){.count = span[0].count + span[1].count,
-                             .pair_count = count,
-                             .pair_capacity = count,
-                             .slip = whole->slip,
-                             .complete = true,
-                             .owns_trees = true};
-    list->candidates = calloc(list->count, sizeof *list->candidates);
-    list->pairs = malloc(count * sizeof *list->pairs);
-    bool ok = list->candidates != NULL && list->pairs != NULL;
-    for (size_t k = 0; ok && k < count; ++k) {
-        list->pairs[k] = (candidate_pair){.side = {NULL, NULL}};
-        for (int side = 0; side < 2; ++side) {
-            const candidate *from = pairs[k].side[side];
-            const size_t before = side == 0 ? 0 : span[0].count;
-            candidate *slot = list->candidates + before + (size_t)(from - span[side].first);
-            list->pairs[k].side[side] = own_candidate(slot, from, stats);
-            ok = ok && list->pairs[k].side[side] != NULL;
-        }
-    }
-    if (ok) return IMP_SUCCESS;
-    candidates_clear(list);
-    return error_set_memory(error);
 }
 
 uint64_t candidates_bytes(const candidate_list *list)

@@ -40,13 +40,28 @@ typedef struct candidate_limit {
     void *context;
 } candidate_limit;
 
-/* Fills an empty list with the scene's trees; the nodes made for it are added to `stats`.
- * `may_rest`: pairs that turn within themselves may have trees of one moment; false for a query of
- * slices of time. If a limit ends it, the list is empty again and not complete; after that, or a
- * failure, it may be filled again. */
+/* Which pairs are collected, and how. */
+typedef struct candidate_search {
+    double gamma_clear;
+    bool may_rest; /* pairs that turn within themselves may have trees of one moment: in a query of
+                      all times, not of slices */
+    bool in_parts; /* candidates_frame is asked for frames and missing roots, for some pairs at a
+                      time, so that the first pairs are searched before the last are prepared */
+} candidate_search;
+
+/* Fills an empty list with the scene's trees; the nodes made for it are added to `stats`. If a
+ * limit ends it, the list is empty again and not complete; after that, or a failure, it may be
+ * filled again. */
 imp_code candidates_find(candidate_list *list, imp_scene *scene, const imp_options *options,
-                         double gamma_clear, bool may_rest, const candidate_limit *limit,
+                         const candidate_search *search, const candidate_limit *limit,
                          imp_stats *stats, imp_error *error);
+
+/* Fills an empty list with `count` pairs of the same two bodies, from `first` on, of a list
+ * collected `in_parts`, with the scene's trees in the frames of these pairs. `whole` is only read,
+ * possibly by several threads. What it adds to the scene's trees is added to `stats`. */
+imp_code candidates_frame(candidate_list *list, const candidate_list *whole, size_t first,
+                          size_t count, imp_scene *scene, const imp_options *options, bool may_rest,
+                          const candidate_limit *limit, imp_stats *stats, imp_error *error);
 
 /* Fills an empty list with `count` pairs of another from `first` on and with its own trees, one for
  * each side on which a surface occurs. `whole` is only read, possibly by several threads. Bytes are

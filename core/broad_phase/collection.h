@@ -10,7 +10,7 @@
 #include "core/broad_phase/parallel.h"
 
 /* Declarations shared by the files that make the list of candidates: candidates.c begins and sorts
- * it; collect_surfaces.c, collect_pairs.c and collect_roots.c fill it, each possibly with threads
+ * it; candidates_part.c copies some of it; collect_surfaces.c, collect_pairs.c and collect_roots.c fill it, each possibly with threads
  * that work ahead. */
 
 /* A surface whose tree is made ahead of its turn, and the memory that this added. */
@@ -115,6 +115,10 @@ imp_code collection_add_solids(collection *all, bool *done, imp_error *error);
 
 /* Counts the last maps that all surfaces have in common, as surface_common_motion does for two. */
 size_t collection_common_motion(const imp_scene *scene);
+
+/* Returns the largest slip that is small against gamma_clear and against gamma - gamma_clear; < 0:
+ * no pair is searched at one moment. */
+double collection_slip_most(const imp_options *options, bool may_rest);
 
 /* Gives the surfaces of each pair trees without the motion that both have in common. *done false: a
  * limit was reached first. */

@@ -32,6 +32,10 @@ static imp_result result_of(const imp_query *query)
     if (query->examined.lo <= query->examined.hi)
         r.t_examined[0] = query->examined.lo, r.t_examined[1] = query->examined.hi;
     r.stats.bytes = query->peak_bytes;
+    if (query->parts != NULL) {
+        r.stats.nodes += atomic_load(&query->parts->nodes);
+        r.stats.bytes += atomic_load(&query->parts->bytes);
+    }
     if (query->inside_unknown && r.verdict == IMP_VERDICT_UNDECIDED) r.t_lower = r.t_start;
     if (r.reason == IMP_REASON_RESOLUTION) {
         r.a.body = unresolved(query, 0);

@@ -53,6 +53,11 @@ double query_searched_gamma_clear(const imp_query *query, double gamma_clear)
     return slip > 0 ? sum_upper(gamma_clear, slip) : gamma_clear;
 }
 
+static bool may_rest(const imp_query *query)
+{
+    return query->clearance == NULL || clearance_is_of_all_times(query->clearance);
+}
+
 /* If a limit ends it, the next step starts it again. For a minimum distance without `within`, all
  * surfaces are candidates, however far apart. */
 imp_code query_collect(imp_query *query, double start, imp_error *error)
@@ -61,13 +66,35 @@ imp_code query_collect(imp_query *query, double start, imp_error *error)
         query->clearance == NULL ? query->impact.gamma_clear : clearance_near(query->clearance);
     collecting c = {query, query->stats.seconds, start, IMP_REASON_NONE};
     const candidate_limit limit = {limit_is_reached, limit_is_near, &c};
-    const bool may_rest = query->clearance == NULL || clearance_is_of_all_times(query->clearance);
-    const imp_code code = candidates_find(&query->candidates, query->scene, &query->options, near,
-                                          may_rest, &limit, &query->stats, error);
+    const candidate_search search = {
+        .gamma_clear = near, .may_rest = may_rest(query), .in_parts = query->divided > 0};
+    const imp_code code = candidates_find(&query->candidates, query->scene, &query->options,
+                                          &search, &limit, &query->stats, error);
     query->impact.gamma_clear = query_searched_gamma_clear(query, query->gamma_clear);
     query->impact.candidate_pairs = query->candidates.pairs;
     query->impact.candidate_pair_count = query->candidates.pair_count;
     if (code == IMP_SUCCESS && !query->candidates.complete)
         query_finish(query, IMP_VERDICT_UNDECIDED, c.reason);
+    return code;
+}
+
+imp_code query_collect_part(imp_query *part, const imp_query *whole, size_t index, imp_error *error)
+{
+    const query_parts *parts = whole->parts;
+    const size_t first = parts->first[index], count = parts->first[index + 1] - first;
+    collecting c = {part, 0, clock_seconds(), IMP_REASON_NONE};
+    const candidate_limit limit = {limit_is_reached, limit_is_near, &c};
+    candidate_list framed = {0};
+    imp_stats shared = {0};
+    imp_code code = candidates_frame(&framed, &whole->candidates, first, count, part->scene,
+                                     &part->options, may_rest(whole), &limit, &shared, error);
+    atomic_fetch_add(&whole->parts->nodes, shared.nodes);
+    atomic_fetch_add(&whole->parts->bytes, shared.bytes);
+    if (code == IMP_SUCCESS)
+        code = candidates_part(&part->candidates, &framed, 0, count, &part->stats, error);
+    candidates_clear(&framed);
+    part->impact.gamma_clear = query_searched_gamma_clear(part, part->gamma_clear);
+    part->impact.candidate_pairs = part->candidates.pairs;
+    part->impact.candidate_pair_count = part->candidates.pair_count;
     return code;
 }

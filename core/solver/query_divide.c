@@ -9,6 +9,11 @@
 #include "core/common/clock.h"
 #include "core/solver/query_internal.h"
 
+static size_t part_count(const imp_query *query)
+{
+    return query->parts != NULL ? query->parts->count : 0;
+}
+
 /* --- Dividing --------------------------------------------------------------------------------- */
 
 /* Lists the parts. The list of candidates is in the order of the scene, so that those of two bodies
@@ -18,12 +23,13 @@ static imp_code find_parts(imp_query *query, imp_error *error)
     const candidate_list *list = &query->candidates;
     size_t count = 0;
     for (size_t k = 0; k < list->pair_count; ++k) count += candidate_pair_is_first(list->pairs, k);
-    query->parts = malloc((count + 1) * sizeof *query->parts);
-    if (query->parts == NULL) return error_set_memory(error);
-    query->part_count = 0;
+    query_parts *parts = malloc(sizeof *parts + (count + 1) * sizeof parts->first[0]);
+    if (parts == NULL) return error_set_memory(error);
+    *parts = (query_parts){.count = 0};
     for (size_t k = 0; k < list->pair_count; ++k)
-        if (candidate_pair_is_first(list->pairs, k)) query->parts[query->part_count++] = k;
-    query->parts[count] = list->pair_count;
+        if (candidate_pair_is_first(list->pairs, k)) parts->first[parts->count++] = k;
+    parts->first[count] = list->pair_count;
+    query->parts = parts;
     return IMP_SUCCESS;
 }
 
@@ -70,7 +76,7 @@ imp_code imp_query_divide(imp_query *query, size_t *count, imp_error *error)
     const fp_environment environment = fp_environment_enter();
     const imp_code code = divide(query, error);
     fp_environment_leave(&environment);
-    *count = code == IMP_SUCCESS ? query->part_count : 0;
+    *count = code == IMP_SUCCESS ? part_count(query) : 0;
     return code;
 }
 
@@ -78,8 +84,8 @@ imp_code imp_query_divide(imp_query *query, size_t *count, imp_error *error)
 
 bool imp_query_part_bodies(const imp_query *query, size_t index, size_t body[2])
 {
-    if (query == NULL || body == NULL || index >= query->part_count) return false;
-    const candidate_pair *first = &query->candidates.pairs[query->parts[index]];
+    if (query == NULL || body == NULL || index >= part_count(query)) return false;
+    const candidate_pair *first = &query->candidates.pairs[query->parts->first[index]];
     for (int side = 0; side < 2; ++side) body[side] = first->side[side]->body;
     return true;
 }
@@ -101,7 +107,6 @@ static imp_query *fresh_query(const imp_query *whole, imp_error *error)
     query->verdict = IMP_VERDICT_UNDECIDED;
     query->reason = IMP_REASON_RUNNING;
     query->impact = (impact){.gamma = whole->impact.gamma,
-                             .gamma_clear = whole->impact.gamma_clear,
                              .window = whole->impact.window,
                              .baseline = whole->impact.baseline,
                              .spread = whole->impact.spread,
@@ -125,17 +130,13 @@ FP_APART static imp_query *part_of(const imp_query *whole, size_t index, imp_err
     size_t body[2];
     if (!imp_query_part_bodies(whole, index, body)) {
         error_set(error, IMP_ERROR_USAGE, "part: got %zu, must be below the number of parts, %zu",
-                  index, whole != NULL ? whole->part_count : 0);
+                  index, whole != NULL ? part_count(whole) : 0);
         return NULL;
     }
     imp_query *query = fresh_query(whole, error);
     if (query == NULL) return NULL;
     if (query->options.max_seconds > 0) query->options.max_seconds = seconds_left(whole);
-    const size_t first = whole->parts[index];
-    imp_code code = candidates_part(&query->candidates, &whole->candidates, first,
-                                    whole->parts[index + 1] - first, &query->stats, error);
-    query->impact.candidate_pairs = query->candidates.pairs;
-    query->impact.candidate_pair_count = query->candidates.pair_count;
+    imp_code code = query_collect_part(query, whole, index, error);
     if (code == IMP_SUCCESS && whole->clearance != NULL)
         code = clearance_part(whole->clearance, body, &query->watch, &query->clearance, error);
     if (code == IMP_SUCCESS && query->clearance != NULL)

@@ -17,6 +17,14 @@
  * query_refine.c continues it, query_divide.c divides it, query_answer.c and query_clearance.c
  * return its results. */
 
+/* The parts of a divided query. */
+typedef struct query_parts {
+    size_t count;
+    atomic_uint_least64_t nodes, bytes; /* that they have added to the scene's trees */
+    size_t
+        first[]; /* where the candidates of each begin and, at [count], where the last ones end */
+} query_parts;
+
 struct imp_query {
     imp_scene *scene;
     imp_options options;
@@ -46,9 +54,8 @@ struct imp_query {
     size_t unknown_candidate; /* which are this pair's */
     imp_contact_kind kind;    /* CONTACT; INSIDE: */
     inside_answer inside;
-    size_t *parts;     /* NULL: not divided; where the candidates of each pair of bodies begin, */
-    size_t part_count; /* and, at this index, where the last ones end */
-    double divided;    /* seconds of the clock when it was */
+    query_parts *parts; /* NULL: not divided */
+    double divided;     /* seconds of the clock when it was */
 };
 
 /* What is added to gamma_clear where a proof is kept, so that the verifier, whose bounds differ,
@@ -98,5 +105,10 @@ imp_code query_search_contact(imp_query *query, imp_error *error);
 /* Fills the list of candidates, unless a limit comes first, which ends the query. `start` is when
  * the step began. */
 imp_code query_collect(imp_query *query, double start, imp_error *error);
+
+/* Fills the list of candidates of a part, in the frames in which they are searched. Limits that
+ * come first are left to the next step. `whole` is only read, but for the counts of its parts. */
+imp_code query_collect_part(imp_query *part, const imp_query *whole, size_t index,
+                            imp_error *error);
 
 #endif

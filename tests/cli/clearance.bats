@@ -307,6 +307,14 @@ END
     [[ $output == *'not examined: 499500 pairs of bodies'* ]]
 }
 
+@test "many pairs are answered as they are prepared, so that an end leaves answers" {
+    jq -nc '{bodies: [range(500) | {surfaces: [{type: "sphere", center: [3 * ., 0, 0]}],
+        maps: [{type: "translate", velocity: [0, . % 7, 0]}]}]}' >many.json
+    interrupted 3 INT "$IMPINGE" clearance many.json --each --threads 1 --json # of some 10 s
+    valid clearance
+    json '.not_examined + (.pairs | length) == 124750 and .not_examined > 0'
+    json '[.pairs[] | select(.reason == null and .upper - .lower <= .upper * 1e-3)] | length > 100'
+}
 @test "a limit of time ends the work on many pairs of bodies within it" {
     ! has_sanitizers || skip 'they take processor time of their own'
     jq -nc '{bodies: [range(1000) | {surfaces: [{type: "sphere", center: [3 * ., 0, 0]}],

@@ -120,6 +120,45 @@ START_TEST(threads_at_once_and_any_order_give_the_same_answers_and_counts)
 }
 END_TEST
 
+/* 40 spheres, which turn about the origin in two groups: pairs of one group are searched in the frame
+ * of both. */
+static imp_scene *turning(void)
+{
+    char text[40 * 160] = "{\"bodies\": [";
+    imp_error error = {IMP_SUCCESS, ""};
+    for (int k = 0; k < 40; ++k)
+        snprintf(text + strlen(text), sizeof text - strlen(text),
+                 "%s{\"surfaces\": [{\"type\": \"sphere\", \"center\": [%d, 0, 0]}], \"maps\": "
+                 "[{\"type\": \"rotate\", \"rate\": %d}]}",
+                 k > 0 ? ", " : "", 3 * k, 1 + k / 20);
+    strcat(text, "]}");
+    imp_scene *made = imp_scene_from_json(registry, text, strlen(text), "turning", &error);
+    ck_assert_msg(made != NULL, "%s", error.text);
+    return made;
+}
+
+START_TEST(pairs_are_prepared_with_their_parts)
+{
+    imp_scene *turns = turning();
+    imp_options own = imp_options_default(turns);
+    imp_query *whole = imp_clearance_new(turns, &own, NULL, NULL);
+    size_t count;
+    ck_assert_int_eq(imp_query_divide(whole, &count, NULL), IMP_SUCCESS);
+    ck_assert_uint_eq(count, 40 * 39 / 2);
+    const imp_stats before = imp_query_result(whole).stats;
+    imp_query_free(imp_query_part(whole, 0, NULL));
+    const imp_stats one = imp_query_result(whole).stats;
+    for (size_t k = 0; k < count; ++k) imp_query_free(imp_query_part(whole, k, NULL));
+    const imp_stats all = imp_query_result(whole).stats;
+    for (size_t k = 0; k < count; ++k) imp_query_free(imp_query_part(whole, k, NULL));
+    const imp_stats again = imp_query_result(whole).stats;
+    ck_assert(before.nodes < one.nodes && one.nodes < all.nodes && all.nodes == again.nodes);
+    ck_assert(before.bytes < one.bytes && one.bytes < all.bytes && all.bytes == again.bytes);
+    imp_query_free(whole);
+    imp_scene_free(turns);
+}
+END_TEST
+
 START_TEST(a_part_of_a_clearance_is_the_clearance_of_two_bodies)
 {
     imp_clearance_options asked = imp_clearance_options_default();
@@ -273,6 +312,7 @@ int main(void)
 {
     const TTest *const tests[] = {parts_and_passes_give_the_same_contacts,
                                   threads_at_once_and_any_order_give_the_same_answers_and_counts,
+                                  pairs_are_prepared_with_their_parts,
                                   a_part_of_a_clearance_is_the_clearance_of_two_bodies,
                                   a_part_of_bodies_of_many_surfaces_is_the_scene_of_the_two,
                                   parts_begun_after_the_time_of_all_are_undecided,

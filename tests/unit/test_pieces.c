@@ -431,10 +431,11 @@ static int collect(int most, bool *complete, uint64_t *nodes)
     const imp_options options = imp_options_default(scene);
     asked a = {0, most};
     const candidate_limit limit = {is_reached, is_near, &a};
+    const candidate_search search = {.gamma_clear = 1e-6, .may_rest = true, .in_parts = false};
     candidate_list list = {0};
     imp_stats stats = {0};
     imp_error error;
-    ck_assert_int_eq(candidates_find(&list, scene, &options, 1e-6, true, &limit, &stats, &error),
+    ck_assert_int_eq(candidates_find(&list, scene, &options, &search, &limit, &stats, &error),
                      IMP_SUCCESS);
     *complete = list.complete;
     *nodes = stats.nodes;

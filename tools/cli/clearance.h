@@ -95,8 +95,8 @@ void clearance_print_csv(const clearance_table *table, size_t k, const imp_clear
 json_t *clearance_json(const imp_scene *scene, const imp_clearance *answer);
 json_t *clearance_slice_json(const clearance_table *table, size_t k, const imp_clearance *slice);
 /* Prints the object, and frees it, on one line, with the answers as its last key: "slices", or
- * "pairs" of bodies. Answers are made and printed one by one to save memory. A signal ends the
- * list. */
+ * "pairs" of bodies. Answers are made and printed one by one to save memory. A signal that comes
+ * meanwhile ends the list, and what is missing is counted on standard error. */
 exit_status clearance_print_json(json_t *object, const clearance_table *table, bool slices,
                                  const char *verb);
 

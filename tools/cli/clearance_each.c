@@ -21,7 +21,6 @@ typedef struct filling {
     size_t capacity;          /* of its list, */
     size_t advice_capacity;   /* and of its advice */
     pthread_mutex_t lock;
-    uint64_t bytes_before;    /* of the divided query */
     atomic_size_t bytes;      /* of the answers that are there */
     _Atomic imp_reason ended; /* why parts were left out; NONE: none was */
 } filling;
@@ -93,7 +92,8 @@ static bool is_over(void *context)
     filling *f = context;
     const clearance_each *of = f->of;
     imp_reason reason = IMP_REASON_NONE;
-    if (of->max_bytes > 0 && f->bytes_before + atomic_load(&f->bytes) > of->max_bytes)
+    const uint64_t whole = of->max_bytes > 0 ? imp_query_result(of->query).stats.bytes : 0;
+    if (of->max_bytes > 0 && whole + atomic_load(&f->bytes) > of->max_bytes)
         reason = IMP_REASON_MEMORY;
     if (clock_seconds() >= of->until) reason = IMP_REASON_SECONDS;
     if (interrupt_came()) reason = IMP_REASON_CANCELLED;
@@ -209,9 +209,9 @@ imp_code clearance_each_run(const clearance_each *of, clearance_answers *found, 
     *found = (clearance_answers){.list = NULL};
     imp_code code = imp_query_divide(of->query, &plan.count, error);
     if (code != IMP_SUCCESS) return code;
-    found->stats = imp_query_result(of->query).stats;
-    f.bytes_before = found->stats.bytes;
     code = parts_run(&plan, error);
+    const imp_stats whole = imp_query_result(of->query).stats;
+    add_stats(&found->stats, &whole);
     if (code == IMP_SUCCESS) code = error->code = conclude(&f, plan.count);
     if (found->advice_count > 0)
         qsort(found->advice, found->advice_count, sizeof *found->advice, by_bodies);

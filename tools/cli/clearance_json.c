@@ -130,11 +130,13 @@ exit_status clearance_print_json(json_t *object, const clearance_table *table, b
                                  const char *verb)
 {
     enum { ANSWERS_TO_FLUSH = 1024 };
+    const bool ended = interrupt_came();
+    size_t k = 0;
     char *line = output_json_line(object);
     if (line == NULL) return output_line(line, verb);
     printf("%.*s,\"%s\":[", (int)strlen(line) - 1, line, slices ? "slices" : "pairs");
     free(line);
-    for (size_t k = 0; k < table->count && !interrupt_came(); ++k) {
+    for (; k < table->count && interrupt_came() == ended; ++k) {
         const imp_clearance answer = clearance_table_get(table, k);
         line = output_json_line(slices ? clearance_slice_json(table, k, &answer)
                                        : answer_json(table, &answer));
@@ -145,5 +147,8 @@ exit_status clearance_print_json(json_t *object, const clearance_table *table, b
             return EXIT_DATA;
     }
     puts("]}");
-    return output_flush(verb);
+    const exit_status status = output_flush(verb);
+    if (status != EXIT_ANSWERED || k == table->count) return status;
+    return complain(EXIT_UNDECIDED, verb, "interrupted: the last %zu of %zu %s were not printed",
+                    table->count - k, table->count, slices ? "slices" : "pairs of bodies");
 }
