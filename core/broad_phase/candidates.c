@@ -68,6 +68,8 @@ static imp_code sort_pairs(collection *all, bool *done, imp_error *error)
 
 static imp_code collect_pairs(collection *all, bool *done, imp_error *error)
 {
+    *done = true;
+    if (scene_counts_pairs(all->scene) && imp_scene_pair_count(all->scene) == 0) return IMP_SUCCESS;
     *done = collection_add_pairs(all);
     if (all->out_of_memory) return error_set_memory(error);
     if (*done && scene_has_solids(all->scene)) {

@@ -70,6 +70,10 @@ size_t scene_body_key(const imp_scene *scene, size_t body, size_t k);
 bool scene_key_is_of_body(size_t key); /* the body key / 2; else it is of the group key / 2 */
 const key_pairs *scene_ignored(const imp_scene *scene);
 
+/* Whether imp_scene_pair_count should be asked before the pairs are looked at one by one: there are
+ * many bodies, and some ignore each other. */
+bool scene_counts_pairs(const imp_scene *scene);
+
 /* Answer what imp_scene_body_count and imp_scene_surface_count do; body < scene_body_count. */
 size_t scene_body_count(const imp_scene *scene);
 size_t scene_surface_count(const imp_scene *scene, size_t body);

@@ -67,6 +67,13 @@ size_t scene_body_key(const imp_scene *scene, size_t body, size_t k)
 
 const key_pairs *scene_ignored(const imp_scene *scene) { return &scene->ignored; }
 
+enum { MANY_BODIES = 64 };
+
+bool scene_counts_pairs(const imp_scene *scene)
+{
+    return scene->count >= MANY_BODIES && scene->ignored.count > 0;
+}
+
 bool scene_ignores(const imp_scene *scene, size_t a, size_t b)
 {
     if (scene->ignored.count == 0) return false;

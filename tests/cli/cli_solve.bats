@@ -72,6 +72,25 @@ arm() { # PARENTS
     fi
 }
 
+@test "many bodies that ignore each other are not asked about two by two" {
+    ! has_sanitizers || skip 'they take processor time of their own'
+    # 2e8 pairs, some 5 seconds of the processor if each is looked at
+    jq -nc '{bodies: [range(20000) | {group: ["all"], surfaces: [{type: "sphere", radius: 0.4,
+        center: [. % 100, 0, (. / 100 | floor)]}]}], ignore: [["all", "all"]]}' >many.json
+    quickly() { run "-$1" bash -c 'ulimit -t 3; exec "$@"' - "$IMPINGE" "${@:2}" --json; }
+    quickly 0 solve many.json
+    json '.verdict == "clear" and .reason == "no-pairs"'
+    quickly 0 solve many.json --each
+    quickly 0 clearance many.json
+    json '.lower == null and .reason == "no-pairs"'
+    quickly 0 clearance many.json --each
+    json '.pairs == []'
+    # one more body that meets them all
+    jq -c '.bodies += [{surfaces: [{type: "sphere", center: [50, 0, 50]}]}]' many.json >one.json
+    quickly 0 solve one.json
+    json '.verdict == "contact" and .a.body != .b.body and .t == 0'
+}
+
 @test "parents, definitions and groups mean what they stand for, bit for bit" {
     arm parents >mechanism.json
     run -0 solve_text "$(cat mechanism.json)" --gamma 1e-4 --json

@@ -210,7 +210,7 @@ static void check_steps(const char *text, size_t triangles, size_t edges, size_t
     size_t count[3] = {0, 0, 0};
     mesh m;
     make_at(scene, &plan, &m);
-    ck_assert_int_eq(mesh_find_steps(&m, 1, 2, &error), IMP_SUCCESS);
+    ck_assert_int_eq(mesh_find_steps(&m, 1, 2, NULL, &error), IMP_SUCCESS);
     for (size_t k = 0; k < m.step_count; ++k) ++count[m.steps[k].kind];
     if (triangles > 0) ck_assert_uint_eq(m.triangle_count, triangles);
     ck_assert_msg(count[MESH_EDGE] == edges, "%s: %zu edges", text, count[MESH_EDGE]);
@@ -219,6 +219,28 @@ static void check_steps(const char *text, size_t triangles, size_t edges, size_t
     mesh_free(&m);
     imp_scene_free(scene);
 }
+
+START_TEST(limits_end_the_search_for_edges)
+{
+    const double t = 0;
+    const mesh_plan plan = {.times = &t,
+                            .time_count = 1,
+                            .tolerance = 1e-2,
+                            .lines = 4,
+                            .max_cells = 20000,
+                            .focus_radius = INFINITY};
+    imp_scene *scene = scene_of("sphere");
+    imp_error error = {IMP_SUCCESS, ""};
+    allowance over;
+    mesh m;
+    make_at(scene, &plan, &m);
+    allowance_begin(&over, 1e-12, 0);
+    ck_assert_int_eq(mesh_find_steps(&m, 1, 2, &over, &error), IMP_ERROR_MEMORY);
+    ck_assert(allowance_ended(&over) && strstr(error.text, "--max-seconds 1e-12 was over") != NULL);
+    mesh_free(&m);
+    imp_scene_free(scene);
+}
+END_TEST
 
 START_TEST(flat_faces_show_their_edges_alone)
 {
@@ -255,6 +277,7 @@ int main(void)
                                   cells_out_of_focus_stay_coarse,
                                   what_is_rigid_is_evaluated_once_and_moved,
                                   what_deforms_is_evaluated_at_each_time,
+                                  limits_end_the_search_for_edges,
                                   flat_faces_show_their_edges_alone,
                                   curved_surfaces_show_lines_of_constant_parameters};
     return suite_main_with("mesh", tests, sizeof tests / sizeof tests[0], open_registry,

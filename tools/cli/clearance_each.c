@@ -126,20 +126,25 @@ static imp_clearance answer_of_none(const clearance_each *of, imp_reason reason,
                            .t_violated = NAN};
 }
 
-/* Pairs of bodies that are never both there have no part. */
-static bool add_absent(filling *f)
+/* Adds the pairs of bodies that are never both there, which have no part, until a limit comes. */
+static bool add_absent(filling *f, size_t parts)
 {
+    enum { PAIRS_A_LOOK = 1024 };
     const clearance_each *of = f->of;
     const size_t bodies = imp_scene_body_count(of->scene);
-    size_t part = 0, body[2];
+    size_t part = 0, looked = 0, body[2];
+    if (imp_scene_pair_count(of->scene) == parts) return true;
     for (size_t a = 0; a < bodies; ++a)
         for (size_t b = a + 1; b < bodies; ++b) {
+            if (looked++ % PAIRS_A_LOOK == 0 && is_over(f)) return true;
             if (imp_scene_ignores(of->scene, a, b)) continue;
             const bool is_part =
                 imp_query_part_bodies(of->query, part, body) && body[0] == a && body[1] == b;
             const imp_clearance none = answer_of_none(of, IMP_REASON_NO_TIME, a, b);
             part += is_part;
-            if (!is_part && !add(f, &none)) return false;
+            if (is_part) continue;
+            if (!add(f, &none)) return false;
+            atomic_fetch_add(&f->bytes, sizeof none);
         }
     return true;
 }
@@ -166,11 +171,13 @@ static bool count_rest(filling *f, size_t parts, imp_reason ended)
 static imp_code conclude(filling *f, size_t parts)
 {
     const imp_result whole = imp_query_result(f->of->query);
-    const imp_reason ended =
-        whole.verdict == IMP_VERDICT_UNDECIDED ? whole.reason : atomic_load(&f->ended);
-    const bool listed = ended == IMP_REASON_NONE && !(f->of->within > 0);
-    const bool done = listed ? add_absent(f) : count_rest(f, parts, ended);
-    return done ? IMP_SUCCESS : IMP_ERROR_MEMORY;
+    const bool divided = whole.verdict != IMP_VERDICT_UNDECIDED;
+    if (divided && atomic_load(&f->ended) == IMP_REASON_NONE && !(f->of->within > 0) &&
+        !add_absent(f, parts))
+        return IMP_ERROR_MEMORY;
+    const imp_reason ended = divided ? atomic_load(&f->ended) : whole.reason;
+    if (ended == IMP_REASON_NONE && !(f->of->within > 0)) return IMP_SUCCESS;
+    return count_rest(f, parts, ended) ? IMP_SUCCESS : IMP_ERROR_MEMORY;
 }
 
 static int by_bodies(const void *x, const void *y)

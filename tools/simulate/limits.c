@@ -13,6 +13,12 @@ limits limits_begin(double max_seconds, uint64_t max_pairs)
                     .max_pairs = max_pairs};
 }
 
+void limits_reserve(limits *l, double seconds)
+{
+    const double left = l->deadline - clock_seconds();
+    if (left > 0) l->deadline -= seconds < left ? seconds : left;
+}
+
 imp_reason limits_reached(const limits *l)
 {
     if (interrupt_came()) return IMP_REASON_CANCELLED;

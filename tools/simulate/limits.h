@@ -18,6 +18,9 @@ typedef struct limits {
 
 limits limits_begin(double max_seconds, uint64_t max_pairs);
 
+/* Keeps these seconds, or all that are left, for what comes after the motion. */
+void limits_reserve(limits *l, double seconds);
+
 /* Whether a signal has come or the time is up: NONE, CANCELLED or SECONDS. */
 imp_reason limits_reached(const limits *l);
 

@@ -117,6 +117,8 @@ static exit_status check_options(setup *s)
                         o->t_end, -VALUE_MAX, VALUE_MAX);
 }
 
+static const double writing_seconds = 4e-5; /* that the motion of a body takes to write, about */
+
 exit_status setup_read(setup *s, const arguments *args)
 {
     *s = (setup){.name = input_name(args->operands[0])};
@@ -131,7 +133,9 @@ exit_status setup_read(setup *s, const arguments *args)
     s->limits.max_pairs = s->options.max_pairs;
     status = query_check_times(s->still, &s->options, args);
     if (status == EXIT_ANSWERED) status = check_options(s);
-    return status == EXIT_ANSWERED ? read_actors(s) : status;
+    if (status == EXIT_ANSWERED) status = read_actors(s);
+    if (status == EXIT_ANSWERED) limits_reserve(&s->limits, writing_seconds * (double)s->count);
+    return status;
 }
 
 void setup_free(setup *s)

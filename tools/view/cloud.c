@@ -37,25 +37,28 @@ static bool add_point(cloud *c, vec p)
     return true;
 }
 
-static bool add_farthest(cloud *c, const vec *point, size_t count)
+static imp_code add_farthest(cloud *c, const vec *point, size_t count, allowance *l,
+                             imp_error *error)
 {
     for (size_t k = 0; k < DIRECTIONS; ++k) {
+        const imp_code code = allowance_check(l, "the view was chosen", error);
+        if (code != IMP_SUCCESS) return code;
         const vec direction = direction_of(k);
         size_t best = 0;
         for (size_t i = 1; i < count; ++i)
             if (vec_dot(direction, point[i]) > vec_dot(direction, point[best])) best = i;
-        if (count > 0 && !add_point(c, point[best])) return false;
+        if (count > 0 && !add_point(c, point[best])) return mesh_no_memory(error);
     }
-    return true;
+    return IMP_SUCCESS;
 }
 
-static bool add_points(cloud *c, const vec *point, size_t count)
+static imp_code add_points(cloud *c, const vec *point, size_t count, allowance *l, imp_error *error)
 {
     for (size_t i = 0; i < count; ++i) vec_box_add(&c->box, point[i]);
-    if (count > DIRECTIONS) return add_farthest(c, point, count);
+    if (count > DIRECTIONS) return add_farthest(c, point, count, l, error);
     for (size_t i = 0; i < count; ++i)
-        if (!add_point(c, point[i])) return false;
-    return true;
+        if (!add_point(c, point[i])) return mesh_no_memory(error);
+    return IMP_SUCCESS;
 }
 
 /* --- Coarse grids ----------------------------------------------------------------------------- */
@@ -81,8 +84,7 @@ imp_code cloud_add(cloud *c, const imp_scene *scene, size_t body, size_t surface
     for (size_t k = 0; k < count && code == IMP_SUCCESS; ++k) {
         if (!mesh_exists(scene, &m, moments[k])) continue;
         code = mesh_move(scene, &m, moments[k], l, error);
-        if (code == IMP_SUCCESS && !add_points(c, m.point, m.point_count))
-            code = mesh_no_memory(error);
+        if (code == IMP_SUCCESS) code = add_points(c, m.point, m.point_count, l, error);
     }
     mesh_free(&m);
     return code;

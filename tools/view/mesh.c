@@ -151,6 +151,8 @@ static imp_code look_at_times(const imp_scene *scene, mesh *m, const mesh_plan *
     return IMP_SUCCESS;
 }
 
+enum { PIECES_A_LOOK = 256 }; /* pieces between looks at the limits */
+
 /* Finds out whether it moves rigidly between the first and the last time of the plan at which it
  * exists. */
 static imp_code find_rigid(const imp_scene *scene, mesh *m, const mesh_plan *plan, imp_error *error)
@@ -166,7 +168,9 @@ static imp_code find_rigid(const imp_scene *scene, mesh *m, const mesh_plan *pla
     for (size_t k = 0; k < pieces && m->is_rigid && code == IMP_SUCCESS; ++k) {
         imp_rigid_motion motion;
         const imp_place at = {m->body, m->surface, k};
-        code = imp_piece_motion(scene, at, first, last, &motion, error);
+        if (k % PIECES_A_LOOK == 0)
+            code = allowance_check(plan->allowance, "triangles were made", error);
+        if (code == IMP_SUCCESS) code = imp_piece_motion(scene, at, first, last, &motion, error);
         m->is_rigid = code == IMP_SUCCESS && motion.is_known;
     }
     return code;

@@ -113,7 +113,7 @@ void mesh_patch_triangles(const mesh *m, const mesh_patch *p, mesh_visitor visit
 
 /* Finds the steps of the meshes of one body together, at their present time: an edge is a side
  * where no other patch of the body continues. `size` is the scene's, a length. */
-imp_code mesh_find_steps(mesh *meshes, size_t count, double size, imp_error *error);
+imp_code mesh_find_steps(mesh *meshes, size_t count, double size, allowance *l, imp_error *error);
 
 /* Sets *error to IMP_ERROR_MEMORY, and returns it. */
 imp_code mesh_no_memory(imp_error *error);

@@ -253,19 +253,42 @@ static void drop_short_folds(mesh *m, double size)
 /* Points no farther apart than this part of all there is are one. */
 static const double join_share = 1e-6;
 
-imp_code mesh_find_steps(mesh *meshes, size_t count, double size, imp_error *error)
+static imp_code look(allowance *l, size_t done, imp_error *error)
+{
+    enum { ITEMS_A_LOOK = 1024 };
+    return done % ITEMS_A_LOOK == 0 ? allowance_check(l, "lines were chosen", error) : IMP_SUCCESS;
+}
+
+static imp_code add_steps(const joiner *j, mesh *meshes, size_t count, allowance *l,
+                          imp_error *error)
+{
+    imp_code code = IMP_SUCCESS;
+    for (size_t k = 0; k < j->count && code == IMP_SUCCESS; ++k) {
+        code = look(l, k, error);
+        if (code == IMP_SUCCESS && !add_side(j, &j->sides[k], &meshes[j->sides[k].mesh]))
+            code = mesh_no_memory(error);
+    }
+    for (size_t k = 0; k < count; ++k)
+        for (size_t p = 0; p < meshes[k].patch_count && code == IMP_SUCCESS; ++p) {
+            code = look(l, p, error);
+            if (code == IMP_SUCCESS && !meshes[k].patches[p].is_flat &&
+                !add_lines(&meshes[k], &meshes[k].patches[p]))
+                code = mesh_no_memory(error);
+        }
+    return code;
+}
+
+imp_code mesh_find_steps(mesh *meshes, size_t count, double size, allowance *l, imp_error *error)
 {
     joiner j = {.meshes = meshes, .slack = join_share * size};
-    bool good = joiner_begin(&j, count);
-    for (size_t k = 0; k < j.count && good; ++k) put_side(&j, k);
-    for (size_t k = 0; k < j.count && good; ++k)
-        good = add_side(&j, &j.sides[k], &meshes[j.sides[k].mesh]);
-    for (size_t k = 0; k < count && good; ++k) {
-        for (size_t p = 0; p < meshes[k].patch_count && good; ++p)
-            if (!meshes[k].patches[p].is_flat) good = add_lines(&meshes[k], &meshes[k].patches[p]);
-        if (good) drop_short_folds(&meshes[k], size);
+    imp_code code = joiner_begin(&j, count) ? IMP_SUCCESS : mesh_no_memory(error);
+    for (size_t k = 0; k < j.count && code == IMP_SUCCESS; ++k) {
+        code = look(l, k, error);
+        if (code == IMP_SUCCESS) put_side(&j, k);
     }
+    if (code == IMP_SUCCESS) code = add_steps(&j, meshes, count, l, error);
+    for (size_t k = 0; k < count && code == IMP_SUCCESS; ++k) drop_short_folds(&meshes[k], size);
     free(j.sides);
     free(j.heads);
-    return good ? IMP_SUCCESS : mesh_no_memory(error);
+    return code;
 }

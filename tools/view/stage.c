@@ -61,7 +61,7 @@ static imp_code make_body(stage *s, size_t body, mesh_plan *plan, size_t max_cel
         if (s->meshes[k].home < INFINITY)
             code = mesh_move(s->scene, &s->meshes[k], s->meshes[k].home, s->allowance, error);
     if (code != IMP_SUCCESS) return code;
-    return mesh_find_steps(s->meshes + first, s->count - first, stage_size(s), error);
+    return mesh_find_steps(s->meshes + first, s->count - first, stage_size(s), s->allowance, error);
 }
 
 /* Coordinates beyond this overflow where lengths are squared. */
