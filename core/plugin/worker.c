@@ -182,8 +182,8 @@ static imp_status await_reply(worker *w, const void *user)
 {
     const channel *c = w->channel;
     struct timespec until = in_a_glance();
-    const time_t deadline = until.tv_sec + WORKER_DEADLINE_S;
-    while (until.tv_sec < deadline) {
+    const double deadline = clock_seconds() + WORKER_DEADLINE_S;
+    while (clock_seconds() < deadline) {
         if (sem_clockwait(&w->channel->replied, CLOCK_MONOTONIC, &until) == 0) {
             if (atomic_load(&c->answering) == c->number) return c->work.status;
         } else if (errno == ETIMEDOUT) {

@@ -311,7 +311,6 @@ END
     jq -nc '{bodies: [range(500) | {surfaces: [{type: "sphere", center: [3 * ., 0, 0]}],
         maps: [{type: "translate", velocity: [0, . % 7, 0]}]}]}' >many.json
     interrupted 3 INT "$IMPINGE" clearance many.json --each --threads 1 --json # of some 10 s
-    valid clearance
     json '.not_examined + (.pairs | length) == 124750 and .not_examined > 0'
     json '[.pairs[] | select(.reason == null and .upper - .lower <= .upper * 1e-3)] | length > 100'
 }

@@ -148,6 +148,15 @@ open("done").close()' "$1" &
     cat held >/dev/null
 }
 
+@test "a file that grows beyond its limit in the middle of a write is told truly, and not left" {
+    limited() { bash -c 'trap "" XFSZ; ulimit -f 9; exec "$@"' - "$IMPINGE" "$@"; }
+    local ending
+    for ending in glb obj svg; do # 9 KiB of some hundred
+        fails 4 "big.$ending: File too large" limited view "$left" "$right" -o "big.$ending"
+        [ ! -e "big.$ending" ] && [ ! -e "big.$ending.part" ]
+    done
+}
+
 @test "an output that another run is writing is refused, and the run named" {
     held out.svg.part
     fails 4 "view: out.svg: process $holder is writing it" writes view out.svg

@@ -444,6 +444,23 @@ all_hang() {
     done
 }
 
+@test "a type that takes too long to read ends a batch after the answers so far, or costs its line alone" {
+    local k line='{"bodies":[{"surfaces":[{"type":"sphere"}]},{"surfaces":[{"type":"TYPE","center":[4,0,0]}]}]}'
+    local slow='{"bodies":[{"surfaces":[{"type":"sphere"}]},{"surfaces":[{"type":"hostile"}]}]}'
+    printf '%s\n' "${line/TYPE/sphere}" "$slow" "${line/TYPE/sphere}" >lines.jsonl
+    export HOSTILE='create spin'
+    for k in 1 2; do
+        run -3 --separate-stderr "$IMPINGE" batch lines.jsonl --plugin-path "$here/plugins" --threads 1 \
+            --max-seconds 0.1 --resume answers.jsonl
+        [[ $stderr == *'--max-seconds 0.1 was over while lines.jsonl, line 2 was read; allow more (0: no limit), or give --isolate, so that '* ]]
+        output=$(<answers.jsonl)
+        json -s 'length == 1 and (.[0] | has("verdict"))'
+    done
+    run -5 --separate-stderr "$IMPINGE" batch lines.jsonl --plugin-path "$here/plugins" --isolate all
+    json -s 'length == 3 and .[0].verdict == "clear" and .[2].verdict == "clear" and
+        (.[1].error | contains("create of '"'hostile'"'") and contains("does not answer within 5 s"))'
+}
+
 @test "a callback that hangs in the host is named when SIGQUIT ends the command" {
     local folder phase whose
     ulimit -c 0

@@ -132,9 +132,8 @@ static bool add_absent(filling *f, size_t parts)
     enum { PAIRS_A_LOOK = 1024 };
     const clearance_each *of = f->of;
     const size_t bodies = imp_scene_body_count(of->scene);
-    size_t part = 0, looked = 0, body[2];
-    if (imp_scene_pair_count(of->scene) == parts) return true;
-    for (size_t a = 0; a < bodies; ++a)
+    size_t part = 0, looked = 0, absent = imp_scene_pair_count(of->scene) - parts, body[2];
+    for (size_t a = 0; a < bodies && absent > 0; ++a)
         for (size_t b = a + 1; b < bodies; ++b) {
             if (looked++ % PAIRS_A_LOOK == 0 && is_over(f)) return true;
             if (imp_scene_ignores(of->scene, a, b)) continue;
@@ -143,6 +142,7 @@ static bool add_absent(filling *f, size_t parts)
             const imp_clearance none = answer_of_none(of, IMP_REASON_NO_TIME, a, b);
             part += is_part;
             if (is_part) continue;
+            absent -= 1;
             if (!add(f, &none)) return false;
             atomic_fetch_add(&f->bytes, sizeof none);
         }

@@ -102,10 +102,10 @@ static exit_status print_clear(printing *p)
 {
     enum { PAIRS_TO_LOOK = 256 };
     const each *e = p->e;
-    const size_t bodies = imp_scene_body_count(e->scene);
+    const size_t bodies = imp_scene_body_count(e->scene), pairs = imp_scene_pair_count(e->scene);
     size_t part = 0, others = 0, looked = 0, of[2];
     exit_status status = EXIT_ANSWERED;
-    for (size_t a = 0; a < bodies; ++a)
+    for (size_t a = 0; a < bodies && part + others < pairs; ++a)
         for (size_t b = a + 1; b < bodies && status == EXIT_ANSWERED; ++b) {
             if (looked++ % PAIRS_TO_LOOK == 0 && only_counts(p)) {
                 count_rest(p, part, others);

@@ -39,15 +39,20 @@ static exit_status fail(output_file *out, int error)
 
 /* --- Writing ---------------------------------------------------------------------------------- */
 
-/* Called by stdio, which keeps only the fact that a write failed. */
-static ssize_t write_some(void *cookie, const char *text, size_t length)
+/* Called by stdio, which keeps only the fact that a write failed, and which calls a write that is
+ * cut short a failure: on a disk that fills up, the next write tells why. */
+static ssize_t write_all(void *cookie, const char *text, size_t length)
 {
     output_file *out = cookie;
-    ssize_t n;
-    do n = write(out->descriptor, text, length);
-    while (n < 0 && errno == EINTR);
-    if (n < 0 && out->error == 0) out->error = errno;
-    return n < 0 ? 0 : n;
+    size_t done = 0;
+    while (done < length) {
+        const ssize_t n = write(out->descriptor, text + done, length - done);
+        if (n < 0 && errno == EINTR) continue;
+        if (n < 0 && out->error == 0) out->error = errno;
+        if (n < 0) break;
+        done += (size_t)n;
+    }
+    return (ssize_t)done;
 }
 
 static int close_descriptor(void *cookie)
@@ -59,7 +64,7 @@ static int close_descriptor(void *cookie)
 /* Takes ownership of the descriptor; -1: it could not be opened, for errno's reason. */
 static exit_status begin_file(output_file *out, int fd)
 {
-    const cookie_io_functions_t functions = {.write = write_some, .close = close_descriptor};
+    const cookie_io_functions_t functions = {.write = write_all, .close = close_descriptor};
     out->descriptor = fd;
     if (fd < 0) return fail(out, errno);
     out->file = fopencookie(out, "w", functions);

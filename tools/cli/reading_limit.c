@@ -18,7 +18,7 @@
 typedef struct alarm_of_thread {
     timer_t timer;
     atomic_bool is_set;
-    char message[256]; /* what the handler says */
+    char message[384]; /* what the handler says */
 } alarm_of_thread;
 
 static _Thread_local alarm_of_thread own;
@@ -59,8 +59,11 @@ void reading_limit_begin(const arguments *args, const char *scene)
     const double limit = limit_of(args);
     if (limit == 0) return;
     snprintf(own.message, sizeof own.message,
-             "%s: --max-seconds %g was over while %.150s was read; allow more (0: no limit)",
-             args->verb->name, limit, scene != NULL ? scene : "the scene");
+             "%s: --max-seconds %g was over while %.150s was read; allow more (0: no limit)%s",
+             args->verb->name, limit, scene != NULL ? scene : "the scene",
+             scene != NULL
+                 ? ", or give --isolate, so that a type that takes too long costs its line alone"
+                 : "");
     for (char *c = own.message; *c != '\0'; ++c)
         if ((unsigned char)*c < ' ') *c = '?';
     set_alarm(1.1 * limit + 0.2);
