@@ -10,8 +10,8 @@
 #include "core/broad_phase/parallel.h"
 
 /* Declarations shared by the files that make the list of candidates: candidates.c begins and sorts
- * it; candidates_part.c copies some of it; collect_surfaces.c, collect_pairs.c and collect_roots.c fill it, each possibly with threads
- * that work ahead. */
+ * it; candidates_part.c copies some of it; collect_surfaces.c, collect_pairs.c and collect_roots.c
+ * fill it, each possibly with threads that work ahead. */
 
 /* A surface whose tree is made ahead of its turn, and the memory that this added. */
 typedef struct surface_ahead {

@@ -762,8 +762,8 @@ IMP_EXPORT bool imp_query_part_bodies(const imp_query *query, size_t index, size
 /* Makes the query of one part, to be stepped, read and freed like any other. It has trees of its
  * own, so that answers, and stats but for seconds, do not depend on the number of threads or the
  * order; different threads may make, step and free parts at once. What making it adds to the
- * scene's trees is counted in the stats of the divided query, which must outlive it. max_pairs and max_bytes hold for each part, max_seconds for all together from
- * imp_query_divide on. */
+ * scene's trees is counted in the stats of the divided query, which must outlive it. max_pairs and
+ * max_bytes hold for each part, max_seconds for all together from imp_query_divide on. */
 IMP_EXPORT imp_query *imp_query_part(const imp_query *query, size_t index, imp_error *error);
 
 /* Ends the running step soon, as UNDECIDED; if none is running, the next one. [any thread,
