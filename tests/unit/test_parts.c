@@ -120,8 +120,8 @@ START_TEST(threads_at_once_and_any_order_give_the_same_answers_and_counts)
 }
 END_TEST
 
-/* 40 spheres, which turn about the origin in two groups: pairs of one group are searched in the frame
- * of both. */
+/* 40 spheres, which turn about the origin in two groups: pairs of one group are searched in the
+ * frame of both. */
 static imp_scene *turning(void)
 {
     char text[40 * 160] = "{\"bodies\": [";
