@@ -10,12 +10,15 @@ pkginclude_HEADERS = \
     sdk/impinge/formula.h \
     sdk/impinge/formula_text.h \
     sdk/impinge/interval.h \
+    sdk/impinge/interval_functions.h \
     sdk/impinge/model.h \
     sdk/impinge/model.hpp \
     sdk/impinge/model_angles.h \
     sdk/impinge/model_arithmetic.h \
+    sdk/impinge/model_basics.h \
     sdk/impinge/model_functions.h \
     sdk/impinge/model_link.h \
+    sdk/impinge/model_powers.h \
     sdk/impinge/model_series.h \
     sdk/impinge/plugin.h \
     sdk/impinge/quad.h \

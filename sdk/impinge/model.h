@@ -63,5 +63,6 @@
 #include <impinge/model_angles.h>
 #include <impinge/model_arithmetic.h>
 #include <impinge/model_functions.h>
+#include <impinge/model_powers.h>
 
 #endif /* IMPINGE_MODEL_H */
