@@ -208,6 +208,8 @@ bats_suites = \
     tests/cli/bezier_triangle.bats \
     tests/cli/bodies.bats \
     tests/cli/check.bats \
+    tests/cli/check_manners.bats \
+    tests/cli/check_proofs.bats \
     tests/cli/cli.bats \
     tests/cli/certificates.bats \
     tests/cli/clearance.bats \
@@ -219,7 +221,10 @@ bats_suites = \
     tests/cli/cli_solve.bats \
     tests/cli/files.bats \
     tests/cli/host.bats \
+    tests/cli/host_cache.bats \
+    tests/cli/host_lies.bats \
     tests/cli/hostile.bats \
+    tests/cli/hostile_hangs.bats \
     tests/cli/json_errors.bats \
     tests/cli/matrix.bats \
     tests/cli/mesh.bats \
@@ -250,6 +255,9 @@ script_suites = \
     tests/cli/manuals.bats \
     tests/cli/structure.bats \
     tests/cli/sdk.bats \
+    tests/cli/sdk_abi.bats \
+    tests/cli/sdk_build.bats \
+    tests/cli/sdk_new.bats \
     tests/cli/preparation.bats
 
 # Plugins for the tests of the loader, mostly faulty: tests/plugins/NAME.la is built from
@@ -805,7 +813,8 @@ AM_TESTS_ENVIRONMENT = \
 # built without optimization, which halves the time, and installed. `files` lists what is installed. Where
 # the source folder is configured itself, a copy of it is built.
 installed = tests/installed
-tests/cli/install.log tests/cli/manuals.log tests/cli/release.log tests/cli/sdk.log: $(installed)/files
+tests/cli/install.log tests/cli/manuals.log tests/cli/release.log tests/cli/sdk.log \
+    tests/cli/sdk_abi.log tests/cli/sdk_build.log tests/cli/sdk_new.log: $(installed)/files
 .PHONY: $(installed)/files
 $(installed)/files:
 	$(AM_V_GEN)unset DESTDIR; source='$(abs_top_srcdir)'; $(MKDIR_P) $(installed)/build && \
@@ -841,6 +850,8 @@ EXTRA_DIST += tests/variants tests/distributions tests/support/timed
 EXTRA_DIST += $(bats_suites) $(script_suites) $(release_suites) tests/support/include_order \
     tests/support/cli_helper.bash \
     tests/support/comma_locale \
+    tests/support/check_helper.bash tests/support/host_helper.bash \
+    tests/support/hostile_helper.bash tests/support/sdk_helper.bash \
     tests/support/simulate_helper.bash \
     tests/support/page.js \
     tests/support/schema.jq
@@ -865,7 +876,8 @@ EXTRA_DIST += \
 all_suites = $(if $(filter $(script_suites),$(TESTS)),$(release_suites)) $(TESTS)
 clang_suites = $(filter-out %.bats,$(TESTS))
 sanitized_suites = $(filter-out $(script_suites) \
-    $(patsubst %,tests/cli/%.bats,bench check cli cli_list completion files hostile host matrix mpi page \
+    $(patsubst %,tests/cli/%.bats,bench check check_manners check_proofs cli cli_list completion files \
+      hostile hostile_hangs host host_cache host_lies matrix mpi page \
       parameters_view plot progress series simulate_rest simulate_scenes),$(TESTS))
 .PHONY: check-all check-clang check-sanitized check-threads
 check-all:

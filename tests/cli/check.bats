@@ -2,28 +2,11 @@
 # SPDX-FileCopyrightText: The Impinge authors
 # SPDX-License-Identifier: Apache-2.0
 
-# impinge check: liars are exposed, each by the right check, and honest plugins are never accused.
+# impinge check: bounds that lie are exposed, each by the right check; honest plugins are not accused.
 
-load ../support/cli_helper
+load ../support/check_helper
 
-liars=$top_builddir/tests/plugins/.libs
-
-# exposes CHECK LIAR TEXT: that check of the liar fails, with that text, and can be replayed.
-exposes() {
-    run -6 "$IMPINGE" check "$liars/$2.so" --only "$1"
-    echo "$output"
-    [[ $output == *"FAIL  $1 "*"$3"*"again: impinge check "*" --seed 1 --only $1"* ]]
-}
-
-# blamed FILE TYPE [ARG]...: a type of mistakes_FILE.so, which has failed.
-blamed() {
-    ln -sf "$liars/mistakes_$1.so" .
-    run -6 "$IMPINGE" check "$2" --plugin-path . "${@:3}"
-    echo "$output"
-}
-
-# --- Bounds ------------------------------------------------------------------------------------------
-
+# --- Bounds -------------------------------------------------------------------------------------
 @test "the liars' surface without a lie passes every check" {
     run -0 "$IMPINGE" check "$liars/liar_truthful.so"
     [[ $output != *FAIL* && $output == *"tested("*", 1)"* ]]
@@ -171,369 +154,7 @@ blamed() {
     [ "$output" = "$first" ]
 }
 
-# --- Proofs ------------------------------------------------------------------------------------------
-
-wavy='u; cos(3*u)*sin(2*v); v+sin(u+2*t)'
-
-# disproves LIAR TEXT: what the truthful formula refutes of it.
-disproves() {
-    run -6 "$IMPINGE" check "$liars/$1.so" --only proof --formula "$wavy" --effort "${3-0.1}"
-    echo "$output"
-    [[ $output == *"FAIL  proof "*": $2"*": by the formula "*" is surely in ["*"refuted"* ]]
-}
-
-@test "types that take their formula as text are proved" {
-    local type
-    for type in formula 'formula x=u*exp(-u*v) y=sqrt(1+v*v) z=u*t' \
-        'map-formula x=x*cos(t)-y*sin(t) y=x*sin(t)+y*cos(t)'; do
-        run -0 "$IMPINGE" check "$type" --effort 0.1
-        [[ $output == *"  pass  proof "*" claims over "*" regions are proved"*"  proved("*", 1): "* ]]
-    done
-}
-
-# follows TYPE X Y Z: what the type claims follows from the formula, but for one claim in a hundred
-# at most, where there is no slack to prove it with.
-follows() {
-    run -0 "$IMPINGE" check "$1" --only proof --formula "$2; $3; $4" --effort 0.05 --json
-    echo "$1: $output"
-    json '.types[0].proof | .claims > 1000 and .proved >= 0.99 * .claims'
-}
-
-@test "tight and right bounds are proved, every claim of them" {
-    local r='(major_radius + minor_radius*cos(v))'
-    run -0 "$IMPINGE" check sphere --only proof --formula \
-        'center0 + radius*cos(v)*cos(u); center1 + radius*cos(v)*sin(u); center2 + radius*sin(v)'
-    [[ $output == *"pass  proof        all "*"  proved("* ]]
-    run -0 "$IMPINGE" check torus --only proof --formula "$r*cos(u); $r*sin(u); minor_radius*sin(v)"
-    [[ $output == *"pass  proof        all "*"  proved("* ]]
-}
-
-@test "our types are what they say they are, and their bounds follow from it" {
-    local r
-    follows 'sphere radius=2 center=0,0,1' '2*cos(v)*cos(u)' '2*cos(v)*sin(u)' '1+2*sin(v)'
-    r='(major_radius + minor_radius*cos(v))'
-    follows torus "$r*cos(u)" "$r*sin(u)" 'minor_radius*sin(v)'
-    follows $'torus\tmajor_radius=+2.\tminor_radius=.5' "$r*cos(u)" "$r*sin(u)" 'minor_radius*sin(v)'
-    follows 'ellipsoid radii=1,2,3 center=.1,-.2,.3' 'center0 + radii0*cos(v)*cos(u)' \
-        'center1 + radii1*cos(v)*sin(u)' 'center2 + radii2*sin(v)'
-    follows cylinder 'radius*cos(u)' 'radius*sin(u)' 'height*v'
-    follows cone '(1-v)*radius*cos(u)' '(1-v)*radius*sin(u)' 'height*v'
-    follows 'plane origin=-5,-5,0.3 edge_u=10,0.7,0 edge_v=0.1,10,-3' '-5+10*u+.1*v' \
-        '-5+.7*u+10*v' '.3-3*v'
-    follows 'ripple direction=1,1 size=4,4' u v '.1*sin(2*pi*((u+v)/sqrt(2)-t))'
-    r='(1 + exp(-((u-3)^2+v^2)/.36) + exp(-((u-3-2*pi)^2+v^2)/.36) + exp(-((u-3+2*pi)^2+v^2)/.36))'
-    follows 'spike width=.6 spikes=[[3,0]]' "$r*cos(v)*cos(u)" "$r*cos(v)*sin(u)" "$r*sin(v)"
-    follows 'segment points=[[0,0,0],[2,0,.7]] velocities=[[0,.3,0],[0,1,0]]' '2*u' \
-        '(1-u)*.3*t+u*t' '.7*u'
-    follows 'triangle points=[[0,0,0],[1,0,0],[.3,1,0]] velocities=[[0,0,1],[.7,0,1],[0,0,2]]' \
-        'u*(1+.7*t+v*(.3-1-.7*t))' 'u*v' 't+u*v*t'
-}
-
-@test "our maps are what they say they are, and their bounds follow from it" {
-    local a m='(x+y+z)/3'
-    follows 'translate velocity=1,.3,0' 'x+t' 'y+.3*t' z
-    follows 'rotate axis=1,1,1 rate=1' "$m + cos(t)*(x-$m) + sin(t)*(z-y)/sqrt(3)" \
-        "$m + cos(t)*(y-$m) + sin(t)*(x-z)/sqrt(3)" "$m + cos(t)*(z-$m) + sin(t)*(y-x)/sqrt(3)"
-    follows 'scale factors=[[1],[.5]]' 'x*(1+.5*t)' 'y*(1+.5*t)' 'z*(1+.5*t)'
-    follows 'screw pitch=.5 rate=6' 'cos(6*t)*x-sin(6*t)*y' 'sin(6*t)*x+cos(6*t)*y' 'z+1.5*t/pi'
-    a='(1 - .5*t*clamp((z+1)/2, 0, 1))'
-    follows 'taper end=[1,-.5]' "x*$a" "y*$a" z
-    follows 'twist rate=.5' 'cos(.5*z)*x-sin(.5*z)*y' 'sin(.5*z)*x+cos(.5*z)*y' z
-    follows 'wave amplitude=0,0,.1 wave_vector=6,0,0' x y 'z+.1*sin(6*x-6*t)'
-    a='clamp(y,-1,1)'
-    follows 'bend curvature=.5' x "2*sin(.5*$a) - z*sin(.5*$a) + (y-$a)*cos(.5*$a)" \
-        "2*(1-cos(.5*$a)) + z*cos(.5*$a) + (y-$a)*sin(.5*$a)"
-}
-
-@test "what a proof refutes is a counterexample to what the formula says" {
-    disproves liar_corners 'the rate of y by u'
-    disproves liar_grid 'the rate of y by u'
-    disproves liar_time 'the rate of z by t, 0, over'
-    disproves liar_sign 'the remainder of y' 1
-    disproves liar_remainder 'the remainder of y'
-    disproves liar_range 'the range of z'
-    disproves liar_percent 'the rate of x by u, 0.98999999999999999' 1
-    run -6 "$IMPINGE" check "$liars/liar_error.so" --only proof --formula "$wavy" --effort 0.1
-    [[ $output == *"with the error 0 at "*"surely "*" off"* ]]
-}
-
-@test "a domain that is not the one stated is exposed, and ends that almost meet are pointed out" {
-    local whole='0,2*pi; -1,2'
-    run -0 "$IMPINGE" check sphere --only domain --domain '0,2*pi; -pi/2,pi/2; -1,3'
-    [[ $output == *"pass  domain       as stated"* ]]
-    blamed stated domain_too_short --only domain --domain "$whole"
-    [[ $output == *"v ends at 1, but is said to end at 2"*"again: impinge check "*"--domain '$whole'"* ]]
-    run -0 "$IMPINGE" check period_of_6_28 --plugin-path . --only domain
-    [[ $output == *"note  domain "*"the ends of u, 0 and 6.2800000000000002, almost meet"*", 1 noted"* ]]
-    blamed stated period_of_6_28 --only domain --domain "$whole"
-    run -0 "$IMPINGE" check period_of_6_28 --plugin-path . --only domain --json
-    valid check
-    json '.verdict == "pass" and .types[0].checks[0].verdict == "note"'
-    fails 2 '--domain cannot be read: expected LO,HI; LO,HI of u and v' \
-        "$IMPINGE" check sphere --domain '0,1'
-    fails 2 "'radios' is neither a variable () nor" "$IMPINGE" check sphere --domain '0,radios;0,1'
-}
-
-@test "a formula may name parameters, and is compared with each stage" {
-    local bowl='center0+radius*cos(v)*cos(u); center1+radius*cos(v)*sin(u); center2+radius*sin(v)'
-    run -0 "$IMPINGE" check sphere --only proof --effort 0.05 --formula "$bowl"
-    [[ $output == *"as: sphere radius=2"*"as: sphere"*"  pass  proof "* ]]
-    run -6 "$IMPINGE" check 'sphere radius=2' --only proof --effort 0.05 \
-        --formula "${bowl//radius/2.0000001}"
-    [[ $output == *"again: impinge check "*" --formula "*" --effort 0.05 --only proof"*refuted* ]]
-}
-
-@test "a formula that cannot be read is told of, with its place, and nothing is checked" {
-    run -2 "$IMPINGE" check sphere --only proof --formula 'u;v;radios'
-    [[ $output == *"cannot be read: 'radios', character 7: 'radios' is neither a variable (uvt) nor"* ]]
-    [[ $output != *"pass  "* ]]
-    run -2 "$IMPINGE" check sphere --json --formula 'u;v'
-    [[ $output == *"expected three formulas with ';' between them"* ]]
-}
-
-@test "a formula may name booleans, and elements of lists that not all instances have" {
-    fails 2 "'hat' is neither a variable (xyzt) nor a constant; these are pi, e, times0 ... times2, " \
-        "$IMPINGE" check keyframes --formula 'x; y; z*hat'
-    [[ $stderr == *', hold' ]]
-    run -0 "$IMPINGE" check segment --only proof --effort 0.05 --formula '2*u; u*t*velocities4; 0'
-    [[ $output == *'as: segment'*'as: segment'*'  pass  proof        all '* ]]
-}
-
-@test "parameters that are wrong are the user's fault, not the plugin's" {
-    run -4 "$IMPINGE" check 'sphere radius=-1'
-    [[ $output == *"'sphere radius=-1': surface: radius: got -1, must be > 0"* ]]
-    [[ $output != *FAIL* ]]
-}
-
-@test "a type's own formula proves its bounds, part by part" {
-    run -0 "$IMPINGE" check sphere --only proof --effort 0.2
-    [[ $output == *"pass  proof        all "*"  proved("* ]]
-    run -0 "$IMPINGE" check 'rotate times=[0,1,2] angles=[0,1,0.5]' --only proof --effort 0.2
-    [[ $output == *"pass  proof "*" claims over "* ]]
-}
-
-@test "without a formula there is no proof" {
-    run -0 "$IMPINGE" check "$liars/liar_truthful.so" --only proof
-    [[ $output == *"skip  proof "*"no formula is known; state it with --formula "* ]]
-}
-
-# --- Manners -------------------------------------------------------------------------------------------
-
-@test "an answer that changes from call to call is exposed" {
-    exposes determinism liar_counter "eval's points differ from call to call"
-}
-
-@test "a change of errno or of the rounding mode is exposed" {
-    exposes environment liar_errno 'rate sets errno'
-    exposes environment liar_rounding 'rate changes the rounding mode'
-}
-
-# leaves TYPE PHASE SIN TEXT: the check of the environment fails with that text.
-leaves() {
-    HOSTILE="$2 $3" run -6 "$IMPINGE" check "$1" --plugin-path "$PWD/own" --only environment
-    echo "$1 $2 $3: $output"
-    [[ $output == *"FAIL  environment "*"$2 $4"* ]]
-}
-
-@test "a change of what belongs to the thread or the process is exposed, in each callback" {
-    local phase
-    mkdir own
-    ln -s "$liars/hostile.so" own
-    for phase in create domain eval rate include destroy; do
-        leaves hostile $phase write 'writes to standard output'
-        leaves hostile $phase chdir "changes the working directory to '/'"
-    done
-    for phase in time_domain eval rate apply; do
-        leaves hostile-map $phase write 'writes to standard output'
-    done
-    leaves hostile eval print 'writes to standard output'
-    leaves hostile destroy umask 'changes the umask to 777, before '
-    leaves hostile create block 'changes the signal mask: signal 10 ('
-    leaves hostile domain trap 'changes how subnormal numbers are treated, which exceptions trap'
-    leaves hostile-map apply round 'changes the rounding mode'
-    leaves hostile include errno 'sets errno to 33'
-    leaves hostile rate uselocale 'changes the locale'
-    LC_ALL=C.UTF-8 leaves hostile eval locale 'changes the locale'
-    leaves hostile eval thread 'leaves a thread behind'
-    [ "$(uname -m)" != x86_64 ] || leaves hostile rate x87 'changes how subnormal numbers are treated'
-    run -0 "$IMPINGE" check hostile --plugin-path "$PWD/own" --only environment
-}
-
-@test "writing beyond an output is exposed" {
-    exposes buffers liar_beyond 'eval writes beyond its outputs'
-}
-
-# shows CHECK FILE TYPE TEXT [ARG]...: that check fails with that text.
-shows() {
-    blamed "$2" "$3" --only "$1" "${@:5}"
-    [[ $output == *"FAIL  $1 "*"$4"* ]]
-}
-
-@test "create that reads past an argument, or keeps a pointer to one, is exposed" {
-    ! has_sanitizers || skip 'AddressSanitizer finds it first'
-    shows arguments manners list_read_too_far \
-        "in create of 'list_read_too_far radius=1.5 wave=0.3 path=0.1,0.5,0.125', whose arguments end"
-    shows arguments manners list_kept "though create's arguments are gone: it keeps a pointer to one"
-}
-
-@test "reading or writing past the end of an array is exposed" {
-    ! has_sanitizers || skip 'AddressSanitizer finds it first'
-    shows buffers manners point_read_too_far 'in eval at u='
-    [[ $output == *'whose arrays end where readable memory ends'* ]]
-    shows buffers manners error_written_when_null 'in eval at u='
-    shows buffers map apply_reads_too_far 'in rate, include or apply, whose arrays end'
-}
-
-@test "a cache that calls write to is exposed, though its answers are right" {
-    shows state manners static_cache 'eval changes static data: called from several threads'
-    shows state manners static_scratch 'rate changes static data'
-    # Sanitizers have a heap of their own, which is not looked at.
-    grep -q __asan_init "$(readlink -f mistakes_manners.so)" ||
-        shows state manners instance_cache 'eval changes memory on the heap (such as the instance)'
-}
-
-@test "a callback that allocates is exposed, also where a function that it calls does" {
-    shows allocations manners eval_allocates 'eval calls malloc: it must not allocate'
-    # AddressSanitizer has a strdup of its own, which calls no malloc that could be seen.
-    local call=malloc
-    ! has_sanitizers || call=free
-    shows allocations manners include_copies_text "include calls $call: it must not allocate"
-}
-
-@test "values that create takes, and that make nonsense, are exposed" {
-    shows parameters manners odd_value_is_taken 'create accepts radius=4.94'
-    [[ $output == *'e-324: eval gives x = '* ]]
-    shows parameters manners create_crashes_on_odd_value 'in create of '
-}
-
-@test "a leak is exposed" {
-    run "$IMPINGE" check sphere --only memory
-    [[ $output != *"skip  memory"* ]] || skip "malloc does not report"
-    exposes memory liar_leak '256 instances, created, used and destroyed, leak'
-    exposes memory liar_refusal '64 times size=-1, rejected or destroyed, leak'
-}
-
-@test "a complaint that is longer than its place is exposed" {
-    exposes parameters create_overflows 'create wrote beyond the imp_create_error it was given'
-}
-
-@test "a coordinate that is not a number is exposed" {
-    exposes finite liar_nan 'eval gives x = nan at'
-}
-
-@test "a hole inside of the domain is exposed, at a round number or where rates lead" {
-    shows finite manners nan_inside 'nan at u=1.3,'
-    shows finite manners nan_at_odd_place "eval returned 'domain' for 1 points, the first at u=1.2345678"
-}
-
-@test "a second exported symbol and a factory for unknown ids are exposed" {
-    exposes exports liar_exports "exports 'liar_helper' beside impinge_plugin"
-    exposes factories liar_factory 'get_factory returns a factory for "impinge.surface/'
-}
-
-@test "a crash fails the check it happens in, and names the call" {
-    exposes finite liar_crash 'liar_crash crashed (Aborted) in rate over u in [0, 0]'
-}
-
-@test "a crash in create or destroy names it and what was created, and ends the checks of its type" {
-    run -6 "$IMPINGE" check "$liars/create_crashes.so"
-    [[ $output == *"FAIL  parameters "*"create_crashes crashed ("*") in create of 'create_crashes'"* ]]
-    [ "$(grep -c FAIL <<<"$output")" -eq 1 ]
-    blamed manners destroy_frees_twice
-    [[ $output == *" in destroy of 'destroy_frees_twice radius=1.5 "* ]]
-    [ "$(grep -c FAIL <<<"$output")" -eq 1 ]
-}
-
-@test "one mistake is told once, and which other checks it shows in" {
-    blamed manners error_of_z_not_written
-    [[ $output == *"FAIL  finite "*"eval gives the error "*" of z at "*"  FAIL  also "*"rates, errors, inclusions"* ]]
-    [ "$(grep -c FAIL <<<"$output")" -eq 2 ]
-    blamed manners error_of_z_not_written --json
-    valid check
-    json '[.types[0].checks[] | select(.verdict == "fail") | [.name, .told_before]][:2]
-          == [["finite", false], ["domain", true]]'
-}
-
-@test "a long check shows on a terminal what it is at, and nowhere else" {
-    needs_terminal
-    export IMPINGE
-    run script -qec '"$IMPINGE" check torus --effort 4' /dev/null
-    [[ $output == *$'\r'[1-9]*' s: torus: '*$'\e[K'* ]]
-    run --separate-stderr "$IMPINGE" check torus --effort 4
-    [ -z "$stderr" ]
-}
-
-@test "a hang fails the check it happens in, and ends the checks of its type" {
-    run -6 "$IMPINGE" check "$liars/liar_hang.so" --max-seconds 0.5
-    [[ $output == *"FAIL  finite "*"timed out after 0.5 s in rate over"* ]]
-    [ "$(grep -c FAIL <<<"$output")" -eq 1 ]
-}
-
-@test "a plugin the host refuses has failed, with the host's reason" {
-    run -6 "$IMPINGE" check "$liars/no_note.so"
-    [[ $output == *"FAIL  load "*"the host rejects it: "* ]]
-}
-
-# --- Planted mistakes ------------------------------------------------------------------------------
-
-tube='(radius+wave*sin(3*v+t))*cos(u); (radius+wave*sin(3*v+t))*sin(u); 2*v+path0+path1*t+path2*t^2'
-
-# missed FILE [ARG]...: the types of mistakes_FILE.so in which nothing is found.
-missed() {
-    "$IMPINGE" check "$liars/mistakes_$1.so" --json "${@:2}" >report || [ $? -eq 6 ]
-    jq -r '.types[].name' report >>seen
-    jq -r '.types[] | select(all(.checks[]; .verdict == "pass" or .verdict == "skip")) | .name' report
-}
-
-@test "of 57 kinds of mistakes that authors make, 54 at least are found, and no truth is accused" {
-    local name unproved
-    # Rounding shows to a proof only, and what is meant to those who are told.
-    unproved=$(missed bounds --effort 0.5)
-    echo "not found in bounds without a formula: $unproved"
-    [ "$(wc -w <<<"$unproved")" -le 3 ]
-    ln -sf "$liars/mistakes_bounds.so" .
-    for name in $unproved; do
-        run "$IMPINGE" check "$name" --plugin-path . --only proof --formula "$tube"
-        [ "$status" -eq 6 ] || echo "$name" >>all
-    done
-    missed manners --effort 0.2 >>all
-    missed map --effort 0.2 >>all
-    missed stated --effort 0.2 --formula "$tube" --domain '0,2*pi; -1,2' >>all
-    cat all
-    [ "$(wc -l <seen)" -eq 59 ]
-    grep -qx no_mistake all
-    grep -qx map_no_mistake all
-    [ "$(wc -l <all)" -le 5 ] # the two truths, and three that are missed
-}
-
-@test "mistakes in the pose of a map are exposed, and a true one is not accused" {
-    local missed name
-    missed=$(missed pose --only poses)
-    [ "$missed" = $'pose_remembers\npose_no_mistake' ]
-    [ "$(wc -l <seen)" -eq 12 ]
-    says() { blamed pose "$1" --only poses && [[ $output == *"$2"* ]]; }
-    says pose_remainder_halved 'off the pose, whose remainder is'
-    says pose_rate_halved "and the pose's rate"
-    says pose_range_halved 'outside of the range'
-    says pose_turns_backward 'off the pose, whose remainder is'
-    says pose_without_pivot 'shift[0] is '
-    says pose_depends_on_u 'depends on more than t'
-    says pose_mirrors 'has the determinant -'
-    blamed pose pose_remembers --only state
-    [[ $output == *'rigid changes static data'* ]]
-    says pose_of_a_wave 'off the place where the pose over'
-    says pose_swells "the square of a column's length ("
-    run -0 "$IMPINGE" check sphere --only poses
-    [[ $output == *'skip  poses '*'only maps have poses'* ]]
-}
-
-@test "bounds that are not padded are refuted by the last digits, and the cure is told" {
-    shows proof bounds rate_not_padded 'ulp too little: round it outward' --formula "$tube"
-    shows proof bounds range_not_padded 'ulp too little: round it outward' --formula "$tube"
-}
-
-# --- Ours ----------------------------------------------------------------------------------------------
-
+# --- Ours ---------------------------------------------------------------------------------------
 # Each with a seed of its own.
 @test "none of our types is accused" {
     local so seed=11
@@ -543,8 +164,7 @@ missed() {
     done
 }
 
-# --- Command line ----------------------------------------------------------------------------------------
-
+# --- Command line -------------------------------------------------------------------------------
 @test "a type is found by its name, and checked as it is written" {
     run -0 "$IMPINGE" check 'sphere radius=5' --only finite
     [[ $output == *"surface sphere"*"as: sphere radius=5"*"pass  finite"* ]]
@@ -591,8 +211,7 @@ missed() {
     fails 2 "did you mean 'rates'?" "$IMPINGE" check plane --only rate
 }
 
-# --- Pieces ------------------------------------------------------------------------------------------
-
+# --- Pieces -------------------------------------------------------------------------------------
 @test "pieces that change, are missing, have other times or lie are exposed; those in order are not" {
     run -0 "$IMPINGE" check "$liars/pieces.so" --only pieces --only rates
     exposes pieces pieces_none 'piece_count is 0, must be from 1 to'
@@ -613,8 +232,7 @@ missed() {
     [[ $output != *FAIL* && $output == *'pass  arguments'* ]]
 }
 
-# --- Badges ------------------------------------------------------------------------------------------
-
+# --- Badges -------------------------------------------------------------------------------------
 @test "a badge holds what was checked, and --require holds the label against it" {
     run -0 "$IMPINGE" check "$liars/liar_truthful.so" --effort 0.05 --badge badge.json --require tested
     [[ $output == *passed* ]]

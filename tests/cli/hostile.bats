@@ -5,68 +5,9 @@
 # A plugin that does its worst in each phase of its life: isolated, it costs at most the answer;
 # otherwise it is named, and nothing is taken for an answer that is none.
 
-load ../support/cli_helper
+load ../support/hostile_helper
 
-setup() {
-    cd "$BATS_TEST_TMPDIR" || return
-    mkdir plugins
-    # shellcheck disable=SC2154 # top_builddir comes from the environment
-    cp "$top_builddir/tests/plugins/.libs/hostile.so" plugins
-    export XDG_CACHE_HOME=$PWD/cache
-    here=$PWD
-    surroundings=()
-}
-
-# Any slab meets it at t = 0.9.
-ball='sphere radius=.5 center=.3,.2,1.4'
-
-# Those that are called for a surface, and for a map on an innocent one. rate: by the 1990 method.
-surface='create domain eval rate include destroy'
-map='create time_domain eval rate apply destroy'
-square='plane origin=-1,-1,0 edge_u=2,0,0 edge_v=0,2,0'
-lifted="$square ! hostile-map"
-
-usual_ball=$ball
-
-# Those that a type need not offer, as TYPE:PHASE; and of such a type the two operands.
-offered='hostile-net:net hostile-distance:distance hostile-pieces:piece_count hostile-pieces:piece hostile-rigid:rigid hostile-symmetry:symmetry'
-operands_of() {
-    OPERAND=$1 ball=$usual_ball
-    [ "$1" != hostile-rigid ] || OPERAND="$square ! hostile-rigid"
-    # No distance is asked for unless the other is much the same for long: here it is nearly flat.
-    [[ $1 != hostile-distance && $1 != hostile-symmetry ]] || ball='sphere radius=9 center=.3,.2,9.9'
-    # No symmetry is asked for unless the type turns.
-    [ "$1" != hostile-symmetry ] || OPERAND='hostile-symmetry ! rotate axis=0,0,1 rate=1'
-    # No net is asked for unless the other has one too, and bends.
-    [ "$1" != hostile-net ] || ball='bezier degree=2,1 points=[[-1,-1,1.4],[-1,1,1.4],[0,-1,.6],[0,1,.6],[1,-1,1.4],[1,1,1.4]]'
-}
-
-# hostile PHASE SIN [OPTION]...: the pair of the plugin's surface, or with OPERAND another, and the
-# ball; it is loaded in its right mind once, so that what happens while it is loaded happens in the
-# host.
-hostile() {
-    local method=models
-    [ "$1" != rate ] || method=paper
-    [ -d "$here/cache" ] || "$IMPINGE" list --plugin-path "$here/plugins" >/dev/null
-    : >"$here/confessions"
-    HOSTILE="$1 $2" HOSTILE_CONFESSIONS=$here/confessions timeout 60 env --default-signal=QUIT,TERM "${surroundings[@]}" "$IMPINGE" pair "${OPERAND-hostile}" \
-        "$ball" --method $method --gamma 0.1 --plugin-path "$here/plugins" --json "${@:3}"
-}
-
-# committed PHASE SIN: that was not only asked for, the scene has called the callback.
-committed() { grep -qx "$1 $2" "$here/confessions"; }
-
-# contact COMMAND...: the answer is one line that says so.
-contact() {
-    run -0 --separate-stderr "$@"
-    echo "$*: $output / $stderr"
-    [ "${#lines[@]}" -eq 1 ]
-    json '.verdict == "contact"'
-    [ "$1" != hostile ] || committed "$2" "$3"
-}
-
-# --- Isolated ----------------------------------------------------------------------------------------
-
+# --- Isolated -----------------------------------------------------------------------------------
 @test "isolated, what a plugin prints does not reach the answer" {
     local phase sin
     for phase in $surface; do
@@ -123,8 +64,7 @@ contact() {
     json '.verdict == "clear"'
 }
 
-# --- In the host's own process ---------------------------------------------------------------------
-
+# --- In the host's own process ------------------------------------------------------------------
 # Ways to crash while loaded or unloaded; with AddressSanitizer the recursion ends in its own stack.
 crashes() { echo crash abort && { has_sanitizers || echo overflow; }; }
 
@@ -242,14 +182,7 @@ named() {
     done
 }
 
-# blamed PHASE TYPE WHAT TEXT: names the phase and the type, and says what they did.
-blamed() {
-    [[ $4 == *": $1 of '$2' ($PWD/plugins/hostile.so) $3"* || $4 == *": $3"*" ($1 of '$2')" ||
-        ($1 == destroy && $4 == *"/hostile.so: destroy of '$2' $3"*) ]]
-}
-
-# --- What belongs to the process -----------------------------------------------------------------------
-
+# --- What belongs to the process ----------------------------------------------------------------
 @test "whatever a plugin makes of standard output and of descriptors: the answer comes, or an error tells" {
     local phase sin
     for phase in create eval destroy; do
@@ -382,180 +315,5 @@ blamed() {
         [ $phase != destroy ] || continue
         run -5 --separate-stderr hostile $phase throw --isolate all
         blamed $phase hostile "$end" "$stderr"
-    done
-}
-
-# --- Hangs -----------------------------------------------------------------------------------------------
-
-# in_folder NAME COMMAND...: runs it there; its output, errors and status are files. A plugin that
-# hangs makes the file `hangs`, with the number of its process.
-in_folder() {
-    local status=0
-    cd "$1" || return
-    "${@:2}" >out 2>errors || status=$?
-    echo "$status" >status
-}
-
-# Begins a query for each phase, in a folder TYPE:PHASE.
-all_hang() {
-    local each phase ball=$ball
-    for phase in $surface; do
-        mkdir "hostile:$phase"
-        in_folder "hostile:$phase" hostile "$phase" hang "$@" &
-    done
-    for phase in $map; do
-        mkdir "hostile-map:$phase"
-        OPERAND=$lifted in_folder "hostile-map:$phase" hostile "$phase" hang "$@" &
-    done
-    for each in $offered; do
-        mkdir "$each"
-        (operands_of "${each%:*}" && in_folder "$each" hostile "${each#*:}" hang "$@") &
-    done
-}
-
-@test "isolated, a callback that hangs is ended after 5 s and named, and its process with it" {
-    local folder
-    "$IMPINGE" list --plugin-path "$PWD/plugins" >/dev/null
-    all_hang --isolate all
-    wait
-    for folder in hostile*:*; do
-        echo "$folder: $(<"$folder/status") $(<"$folder/errors")"
-        [ -s "$folder/hangs" ]
-        run ! kill -0 "$(<"$folder/hangs")"
-        if [[ $folder == *:destroy ]]; then
-            [ "$(<"$folder/status")" -eq 0 ] && [ "$(jq -r .verdict "$folder/out")" = contact ]
-        else
-            [ "$(<"$folder/status")" -eq 5 ] && [ "$(jq 'has("error")' "$folder/out")" = true ]
-        fi
-        blamed "${folder#*:}" "${folder%:*}" 'does not answer within 5 s' "$(<"$folder/errors")"
-    done
-}
-
-@test "a callback that takes longer than --max-seconds while the scene is read ends the command, and is not blamed" {
-    local verb told='--max-seconds 0.1 was over while the scene was read; allow more (0: no limit)'
-    run -3 --separate-stderr hostile create spin --max-seconds 0.1
-    [ "$stderr" = "impinge: pair: $told" ]
-    json --arg told "pair: $told" '. == {error: $told}'
-    echo '{"bodies":[{"surfaces":[{"type":"hostile"}]}]}' >slow.json
-    for verb in clearance solve 'simulate -o motion.json' 'view -o view.svg'; do
-        # shellcheck disable=SC2086 # words
-        HOSTILE='create spin' run -3 "$IMPINGE" $verb slow.json --plugin-path "$here/plugins" --max-seconds 0.1
-        [ "$output" = "impinge: ${verb%% *}: $told" ]
-    done
-}
-
-@test "a type that takes too long to read ends a batch after the answers so far, or costs its line alone" {
-    local k line='{"bodies":[{"surfaces":[{"type":"sphere"}]},{"surfaces":[{"type":"TYPE","center":[4,0,0]}]}]}'
-    local slow='{"bodies":[{"surfaces":[{"type":"sphere"}]},{"surfaces":[{"type":"hostile"}]}]}'
-    printf '%s\n' "${line/TYPE/sphere}" "$slow" "${line/TYPE/sphere}" >lines.jsonl
-    export HOSTILE='create spin'
-    for k in 1 2; do
-        run -3 --separate-stderr "$IMPINGE" batch lines.jsonl --plugin-path "$here/plugins" --threads 1 \
-            --max-seconds 0.1 --resume answers.jsonl
-        [[ $stderr == *'--max-seconds 0.1 was over while lines.jsonl, line 2 was read; allow more (0: no limit), or give --isolate, so that '* ]]
-        output=$(<answers.jsonl)
-        json -s 'length == 1 and (.[0] | has("verdict"))'
-    done
-    run -5 --separate-stderr "$IMPINGE" batch lines.jsonl --plugin-path "$here/plugins" --isolate all
-    json -s 'length == 3 and .[0].verdict == "clear" and .[2].verdict == "clear" and
-        (.[1].error | contains("create of '"'hostile'"'") and contains("does not answer within 5 s"))'
-}
-
-@test "a callback that hangs in the host is named when SIGQUIT ends the command" {
-    local folder phase whose
-    ulimit -c 0
-    "$IMPINGE" list --plugin-path "$PWD/plugins" >/dev/null
-    all_hang
-    for phase in constructor get_factory destructor; do
-        mkdir "file:$phase"
-        in_folder "file:$phase" hostile $phase hang &
-    done
-    for folder in *:*; do
-        until [ -s "$folder/hangs" ]; do sleep 0.05; done
-        kill -QUIT "$(<"$folder/hangs")"
-    done
-    wait
-    for folder in *:*; do
-        whose="type '${folder%:*}';"
-        [[ $folder != file:* ]] || whose="plugin '$PWD/plugins/hostile.so'"
-        echo "$folder: $(<"$folder/status") $(<"$folder/errors")"
-        [ "$(<"$folder/status")" -eq 131 ]
-        [[ $(<"$folder/errors") == "impinge: interrupted in ${folder#*:} of $whose"* ]]
-    done
-}
-
-@test "of two signals that end a search the second names a callback that hangs" {
-    local pid
-    "$IMPINGE" list --plugin-path "$PWD/plugins" >/dev/null
-    mkdir search
-    in_folder search hostile eval hang &
-    until [ -s search/hangs ]; do sleep 0.05; done
-    pid=$(<search/hangs)
-    while kill -TERM "$pid" 2>/dev/null; do sleep 0.05; done
-    wait
-    echo "$(<search/status) $(<search/errors)"
-    [ "$(<search/status)" -eq 143 ]
-    [[ $(<search/errors) == "impinge: interrupted in eval of type 'hostile'; where a callback hangs, --isolate ends it after 5 s"* ]]
-}
-
-# A batch of two lines of which the first one hangs: hanging_batch TYPES PHASE.
-hanging_batch() {
-    {
-        scene '"id": 1,' | jq -c --argjson with "$1" '.bodies[0] += $with'
-        scene '"id": 2,'
-    } >scenes.jsonl
-    local method=models
-    [ "$2" != rate ] || method=paper
-    HOSTILE="$2 hang" env --default-signal=QUIT,TERM "$IMPINGE" batch scenes.jsonl --threads 2 \
-        --method $method --plugin-path "$here/plugins"
-}
-
-# ended_by SIGNAL STATUS TYPE BATCH...: a batch hangs in a thread of its own; the signal, twice if need
-# be, ends it and names what hangs, and not what waits.
-ended_by() {
-    local pid folder="$3-${*: -1}-$1"
-    mkdir "$folder"
-    in_folder "$folder" "${@:4}" &
-    until [ -s "$folder/hangs" ]; do sleep 0.05; done
-    pid=$(<"$folder/hangs")
-    while kill -s "$1" "$pid" 2>/dev/null; do sleep 0.05; done
-    wait
-    echo "$folder: $(<"$folder/status") $(<"$folder/errors")"
-    [ "$(<"$folder/status")" -eq "$2" ]
-    [[ $'\n'$(<"$folder/errors") == *$'\nimpinge: interrupted in '"${*: -1} of type '$3'; where"* ]]
-}
-
-@test "a callback that hangs in a thread of a batch is named by the signals that end it" {
-    local phase
-    ulimit -c 0
-    "$IMPINGE" list --plugin-path "$PWD/plugins" >/dev/null
-    for phase in $surface; do
-        ended_by QUIT 131 hostile hanging_batch '{"surfaces": [{"type": "hostile"}]}' "$phase"
-    done
-    for phase in $map; do
-        ended_by QUIT 131 hostile-map hanging_batch '{"maps": [{"type": "hostile-map"}]}' "$phase"
-    done
-    ended_by TERM 143 hostile hanging_batch '{"surfaces": [{"type": "hostile"}]}' eval
-}
-
-@test "isolated, a callback that hangs in a thread of a batch costs its line, and the type is named" {
-    local phase
-    "$IMPINGE" list --plugin-path "$PWD/plugins" >/dev/null
-    for phase in eval destroy; do
-        {
-            scene '"id": 1,' | jq -c '.bodies[0].surfaces = [{"type": "hostile"}]'
-            scene '"id": 2,'
-        } >scenes.jsonl
-        HOSTILE="$phase hang" run --separate-stderr "$IMPINGE" batch scenes.jsonl --threads 2 \
-            --plugin-path "$PWD/plugins" --isolate all
-        echo "$phase: $status $output / $stderr"
-        [ "${#lines[@]}" -eq 2 ] && [ "$(jq -r .verdict <<<"${lines[1]}")" = contact ]
-        if [ $phase = destroy ]; then
-            [ "$status" -eq 0 ] && [ "$(jq 'has("verdict")' <<<"${lines[0]}")" = true ]
-            blamed destroy hostile 'does not answer within 5 s' "$stderr"
-        else
-            [ "$status" -eq 5 ]
-            blamed $phase hostile 'does not answer within 5 s' "$(jq -r .error <<<"${lines[0]}")"
-        fi
     done
 }

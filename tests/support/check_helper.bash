@@ -1,0 +1,23 @@
+# shellcheck shell=bash
+# SPDX-FileCopyrightText: The Impinge authors
+# SPDX-License-Identifier: Apache-2.0
+
+# What the suites of `impinge check` share.
+
+load ../support/cli_helper
+
+liars=$top_builddir/tests/plugins/.libs
+
+# exposes CHECK LIAR TEXT: that check of the liar fails, with that text, and can be replayed.
+exposes() {
+    run -6 "$IMPINGE" check "$liars/$2.so" --only "$1"
+    echo "$output"
+    [[ $output == *"FAIL  $1 "*"$3"*"again: impinge check "*" --seed 1 --only $1"* ]]
+}
+
+# blamed FILE TYPE [ARG]...: a type of mistakes_FILE.so, which has failed.
+blamed() {
+    ln -sf "$liars/mistakes_$1.so" .
+    run -6 "$IMPINGE" check "$2" --plugin-path . "${@:3}"
+    echo "$output"
+}
