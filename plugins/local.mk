@@ -159,8 +159,12 @@ plugins_libcommon_la_SOURCES = \
     plugins/common/frame.c plugins/common/frame.h \
     plugins/common/keys.c plugins/common/keys.h \
     plugins/common/linear.c plugins/common/linear.h \
+    plugins/common/linear_bounds.c plugins/common/linear_internal.h \
+    plugins/common/quaternion.c plugins/common/quaternion.h \
     plugins/common/sinc.c plugins/common/sinc.h \
     plugins/common/spin.c plugins/common/spin.h \
+    plugins/common/spin_across.c plugins/common/spin_across.h \
+    plugins/common/spin_text.c plugins/common/spin_text.h \
     plugins/common/spline.c plugins/common/spline.h plugins/common/spline_set.c \
     plugins/common/spline_text.c \
     plugins/common/superquadric.c plugins/common/superquadric.h

@@ -4,6 +4,7 @@
 #include "plugins/common/keys.h"
 
 #include <math.h>
+#include <string.h>
 
 #define UNIT_SLACK 1e-6
 
@@ -17,6 +18,23 @@ imp_status keys_check_times(int row, const imp_value *times, imp_create_error *w
     return IMP_STATUS_OK;
 }
 
+imp_status keys_check_count(const imp_parameter *parameters, const imp_value *values, int row,
+                            size_t wanted, imp_create_error *why)
+{
+    if (!imp_is_given(&values[row]) || values[row].extent[0] == wanted) return IMP_STATUS_OK;
+    return imp_reject(why, row, -1, "%zu %s for %zu times; must be %zu", values[row].extent[0],
+                      parameters[row].name, values[0].count, wanted);
+}
+
+const double *keys_keep(const imp_value *list, double **room)
+{
+    double *to = *room;
+    if (!imp_is_given(list)) return NULL;
+    memcpy(to, list->number, list->count * sizeof *to);
+    *room += list->count;
+    return to;
+}
+
 imp_status keys_check_rotations(int row, const imp_value *rotations, imp_create_error *why)
 {
     for (size_t i = 0; i < rotations->count / 4; ++i) {
@@ -28,4 +46,9 @@ imp_status keys_check_rotations(int row, const imp_value *rotations, imp_create_
                               q[2], q[3], length, UNIT_SLACK);
     }
     return IMP_STATUS_OK;
+}
+
+void keys_define(const imp_text_sink *to, const char *name, const double *list, size_t count)
+{
+    for (size_t k = 0; k < count; ++k) imp_define_at(to, name, k, list[k]);
 }

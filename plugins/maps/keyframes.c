@@ -3,6 +3,7 @@
 
 #include "plugins/common/keys.h"
 #include "plugins/common/publish.h"
+#include "plugins/common/quaternion.h"
 #include "plugins/common/spline.h"
 
 #include <impinge/formula.h>
@@ -10,21 +11,8 @@
 
 /* Positions and orientations at given times
  * =========================================
- * Seven lanes of one spline (spline.h): the position, and a quaternion q. Its keys are unit
- * quaternions; of the two that mean the same orientation, the one nearer to the key before is used.
- * q between keys is not of unit length, but the rotation
- *
- *   R = 1 + 2 (w [v] + [v]^2) / |q|^2,   q = (w, v), [v] = v x
- *
- * is that of q / |q|, and as smooth as q because q stays away from 0:
- *
- * Lemma. With d = p + q for neighbouring keys p, q, |q| is at least (2 |d| - 1) / 3 between them.
- * For d.p = d.q = |d|^2 / 2, and d.r <= |d| for any key r. A step up the slope at p is a part of at
- * most 1 of q - r, so the control point next to p has at least d.p + (d.q - |d|) / 3, and likewise
- * next to q and in the first and last piece (d.(q - p) = 0). The curve is in the hull of such
- * points, so d.q(t) >= |d|^2 / 2 + (|d|^2 / 2 - |d|) / 3, and |q(t)| is at least that by |d|.
- *
- * With p.q >= NEAR_MIN, |d| >= sqrt(2 + 2 NEAR_MIN) > 1.47, and |q| > 0.64. */
+ * Seven lanes of one spline (spline.h): the position, and a quaternion that turns (quaternion.h).
+ */
 
 enum { TIMES, POSITIONS, ROTATIONS, HOLD };
 
@@ -57,66 +45,22 @@ typedef struct keyframes_instance {
 
 /* --- Checks ----------------------------------------------------------------------------------- */
 
-/* Least cosine between quaternions of neighbours, which are half as far apart as their
- * orientations: 170 degrees. */
-#define NEAR_MIN 0.087
-
-static imp_status check_count(const imp_value *values, int row, imp_create_error *why)
-{
-    if (!imp_is_given(&values[row]) || values[row].extent[0] == values[TIMES].count)
-        return IMP_STATUS_OK;
-    return imp_reject(why, row, -1, "%zu %s for %zu times; there must be one for each",
-                      values[row].extent[0], parameters[row].name, values[TIMES].count);
-}
-
-static double quaternion_dot(const double *p, const double *q)
-{
-    return p[0] * q[0] + p[1] * q[1] + p[2] * q[2] + p[3] * q[3];
-}
-
-static imp_status check_rotations(const imp_value *rotations, imp_create_error *why)
-{
-    for (size_t i = 1; i < rotations->count / 4; ++i) {
-        const double *q = rotations->number + 4 * i, cosine = fabs(quaternion_dot(q - 4, q));
-        if (!(cosine >= NEAR_MIN))
-            return imp_reject(why, ROTATIONS, (int64_t)i,
-                              "turned by %.0f degrees from the key before; must be at most 170, or "
-                              "the direction of rotation is ambiguous: add a key between them",
-                              acos(imp_smaller(cosine, 1)) * 360 / IMP_PI_LOWER);
-    }
-    return IMP_STATUS_OK;
-}
-
 static imp_status check(const imp_value *values, imp_create_error *why)
 {
     imp_status status = keys_check_times(TIMES, &values[TIMES], why);
     if (!imp_is_given(&values[POSITIONS]) && !imp_is_given(&values[ROTATIONS]))
         return imp_reject(why, -1, -1,
                           "neither positions nor rotations are given; one of them is required");
-    if (status == IMP_STATUS_OK) status = check_count(values, POSITIONS, why);
-    if (status == IMP_STATUS_OK) status = check_count(values, ROTATIONS, why);
+    if (status == IMP_STATUS_OK)
+        status = keys_check_count(parameters, values, POSITIONS, values[TIMES].count, why);
+    if (status == IMP_STATUS_OK)
+        status = keys_check_count(parameters, values, ROTATIONS, values[TIMES].count, why);
     if (status == IMP_STATUS_OK) status = keys_check_rotations(ROTATIONS, &values[ROTATIONS], why);
-    if (status == IMP_STATUS_OK) status = check_rotations(&values[ROTATIONS], why);
+    if (status == IMP_STATUS_OK) status = quaternion_keys_check(ROTATIONS, &values[ROTATIONS], why);
     return status;
 }
 
 /* --- Making one ------------------------------------------------------------------------------- */
-
-/* The unit quaternions, with signs that make neighbours near, in the lanes from `key` on. */
-static void set_quaternions(const imp_value *rotations, size_t lanes, imp_interval *key)
-{
-    double sign = 1;
-    for (size_t i = 0; i < rotations->extent[0]; ++i, key += lanes) {
-        const double *q = rotations->number + 4 * i;
-        imp_interval square = imp_interval_make(0, 0);
-        if (i > 0 && quaternion_dot(q - 4, q) < 0) sign = -sign;
-        for (int j = 0; j < 4; ++j)
-            square = imp_interval_add(square, imp_interval_sqr(imp_interval_make(q[j], q[j])));
-        for (int j = 0; j < 4; ++j)
-            key[j] = imp_interval_div(imp_interval_make(sign * q[j], sign * q[j]),
-                                      imp_interval_sqrt(square));
-    }
-}
 
 static void set_positions(const imp_value *positions, size_t lanes, imp_interval *key)
 {
@@ -175,24 +119,13 @@ static size_t set_path(keyframes_instance *s, const imp_value *values, imp_inter
     size_t piece;
     memcpy(s->path.time, values[TIMES].number, values[TIMES].count * sizeof(double));
     if (s->position) set_positions(&values[POSITIONS], lanes, keys);
-    if (s->rotation) set_quaternions(&values[ROTATIONS], lanes, keys + s->position);
+    if (s->rotation) quaternion_keys_set(&values[ROTATIONS], lanes, keys + s->position);
     if (!spline_set(&s->path, keys, &piece)) return piece;
     s->square = imp_interval_make(1, 1);
     for (piece = 0; s->rotation && piece < s->path.pieces; ++piece)
         if (!bound_piece(s, piece)) return piece;
     spline_grow(&s->path);
     return s->path.pieces;
-}
-
-/* Copies the keys as they were given, to where there is room for them. */
-static void keep_given(keyframes_instance *s, const imp_value *values, double *room)
-{
-    const imp_value *positions = &values[POSITIONS], *rotations = &values[ROTATIONS];
-    s->positions = s->position > 0 ? room : NULL;
-    s->rotations = s->rotation > 0 ? room + positions->count : NULL;
-    if (s->position > 0) memcpy(room, positions->number, positions->count * sizeof *room);
-    if (s->rotation > 0)
-        memcpy(room + positions->count, rotations->number, rotations->count * sizeof *room);
 }
 
 static imp_status keyframes_create(const imp_value *values, void **self, imp_create_error *why)
@@ -210,7 +143,9 @@ static imp_status keyframes_create(const imp_value *values, void **self, imp_cre
         s->rotation = rotation;
         s->hold = values[HOLD].number[0] != 0;
         s->path = spline_place(SPLINE_CUBIC, keys, lanes, rotation > 0, s->memory);
-        keep_given(s, values, (double *)(void *)((char *)s->memory + bytes));
+        double *room = (double *)(void *)((char *)s->memory + bytes);
+        s->positions = keys_keep(&values[POSITIONS], &room);
+        s->rotations = keys_keep(&values[ROTATIONS], &room);
         size_t piece = set_path(s, values, key);
         if (piece < keys - 1)
             status = imp_reject(
@@ -241,46 +176,6 @@ static void keyframes_span(const void *self, double *lo, double *hi)
     *hi = s->path.time[s->path.pieces];
 }
 
-/* An entry of R: within [-1, 1]. Its rate is at most the angular speed, as a column of R moves
- * like a point at distance 1. */
-static imp_model entry(imp_model r, const imp_model *t, double speed)
-{
-    for (int j = 0; j < 3; ++j)
-        if (r.depends >> j & 1)
-            r.rate[j] = imp_smaller(r.rate[j], imp_round_up(speed * t->rate[j]));
-    return imp_model_within(r, imp_interval_make(-1, 1));
-}
-
-/* R = 1 + 2 (w [v] + [v]^2) / |q|^2; [v]^2 = v v^T - v^T v. */
-static void rotation_matrix(const keyframes_instance *s, const imp_model q[4], const imp_model *t,
-                            double speed, imp_model r[3][3])
-{
-    const imp_model w = q[0], *v = q + 1;
-    imp_model square[3];
-    for (int i = 0; i < 3; ++i) square[i] = imp_sqr(v[i]);
-    imp_model sum = imp_add(imp_add(imp_sqr(w), square[0]), imp_add(square[1], square[2]));
-    imp_model twice = imp_div(imp_num(2), imp_model_within(sum, s->square));
-    for (int i = 0; i < 3; ++i) {
-        const int j = (i + 1) % 3, k = (i + 2) % 3;
-        imp_model both = imp_mul(v[i], v[j]), turn = imp_mul(w, v[k]);
-        imp_model lost = imp_mul(imp_add(square[j], square[k]), twice);
-        r[i][i] = entry(imp_sub(imp_num(1), lost), t, speed);
-        r[i][j] = entry(imp_mul(imp_sub(both, turn), twice), t, speed);
-        r[j][i] = entry(imp_mul(imp_add(both, turn), twice), t, speed);
-    }
-}
-
-/* R x, which is as long as x. */
-static void turn(imp_model r[3][3], const imp_model x[3], imp_model out[3])
-{
-    imp_interval square = imp_interval_make(0, 0);
-    for (int i = 0; i < 3; ++i)
-        square = imp_interval_add(square, imp_interval_sqr(imp_interval_make(x[i].lo, x[i].hi)));
-    double most = imp_interval_sqrt(square).hi;
-    for (int i = 0; i < 3; ++i)
-        out[i] = imp_model_within(imp_dot3(r[i], x), imp_interval_make(-most, most));
-}
-
 static void keyframes_formula(const void *self, imp_model x, imp_model y, imp_model z, imp_model t,
                               imp_model out[3])
 {
@@ -292,8 +187,8 @@ static void keyframes_formula(const void *self, imp_model x, imp_model y, imp_mo
     spline_models(&s->path, t, lane, node);
     memcpy(out, at, sizeof at);
     if (s->rotation) {
-        rotation_matrix(s, lane + s->position, &t, node[s->path.width - 1].hi, r);
-        turn(r, at, out);
+        quaternion_matrix(lane + s->position, s->square, &t, node[s->path.width - 1].hi, r);
+        quaternion_turn(r, at, out);
     }
     if (s->position)
         for (int i = 0; i < 3; ++i) out[i] = imp_add(out[i], lane[i]);
@@ -335,7 +230,8 @@ static imp_status keyframes_rigid(const void *self, const imp_model *time, imp_p
     spline_models(&s->path, t, lane, node);
     imp_pose_at_rest(pose);
     if (s->rotation)
-        rotation_matrix(s, lane + s->position, &t, node[s->path.width - 1].hi, pose->turn);
+        quaternion_matrix(lane + s->position, s->square, &t, node[s->path.width - 1].hi,
+                          pose->turn);
     if (s->position) memcpy(pose->shift, lane, sizeof pose->shift);
     return imp_pose_status(pose);
 }
@@ -370,7 +266,8 @@ static void write_key(const void *of, int order, size_t key, size_t lane, const 
 }
 
 /* The path's lanes are named a0 ..., positions first; the quaternion is w, e0, e1, e2. |q| > 0.64
- * by the lemma above, so 0.4 is never reached; intervals of long times know it by this. */
+ * by the lemma of quaternion.h, so 0.4 is never reached; intervals of long times know it by this.
+ */
 static void write_rotation(const keyframes_instance *s, const imp_text_sink *to)
 {
     static const char *const name[4] = {"w = a", "e0 = a", "e1 = a", "e2 = a"};

@@ -4,6 +4,8 @@
 #include "plugins/common/keys.h"
 #include "plugins/common/publish.h"
 #include "plugins/common/spin.h"
+#include "plugins/common/spin_across.h"
+#include "plugins/common/spin_text.h"
 #include "plugins/common/spline.h"
 
 #include <impinge/formula.h>
@@ -21,19 +23,8 @@
  * where M_i is the rotation of key i: spin.h says more, and has a lemma. R is continuous.
  *
  * So velocities and spins may jump at keys, places do not. A span of times within one piece has the
- * formula above; of the position across several pieces spline.h says what is known.
- *
- * Lemma. Over several pieces, with W at least all speeds of that lemma and eta at least all 3 max
- * |D_i| (1 + |spin_i| h), X = R x moves by dX/dt = spin x X + E, |E| <= eta |x|: in one piece
- * spin x X = spin x (turn M x + s D x), and s |spin| |D x| and |D x| are the difference. So
- * |dX/dt| <= V |x| with V = W (1 + 4 SPIN_MISMATCH) + eta, and from the middle m of the span, |y|
- * <= r,
- *
- *   X(m + y) = X(m) + g x X(m) + F,   |F| <= (W V r / 2 + eta) r |x|,
- *
- * where g is the integral of the spin from m on, whose coordinates have slopes between the least
- * and the greatest of those pieces. F depends on time by at most (W V r + eta) |x|, and on x as it
- * depends on |x|, being linear in x. Near a point that touches, g x X(m) is along the surfaces. */
+ * formula above; across several pieces spline.h bounds the position and spin_across.h the rotation.
+ */
 
 enum { TIMES, POSITIONS, ACCELERATIONS, ROTATIONS, SPINS, CENTER };
 
@@ -71,15 +62,6 @@ typedef struct trajectory_instance {
 
 /* --- Checks ----------------------------------------------------------------------------------- */
 
-/* `less`: by how much there are fewer than keys. */
-static imp_status check_count(const imp_value *values, int row, size_t less, imp_create_error *why)
-{
-    const size_t wanted = values[TIMES].count - less;
-    if (!imp_is_given(&values[row]) || values[row].extent[0] == wanted) return IMP_STATUS_OK;
-    return imp_reject(why, row, -1, "%zu %s for %zu times; must be %zu", values[row].extent[0],
-                      parameters[row].name, values[TIMES].count, wanted);
-}
-
 /* No spin at all, or one whose square is no subnormal. */
 static imp_status check_spins(const imp_value *spins, imp_create_error *why)
 {
@@ -96,13 +78,17 @@ static imp_status check_spins(const imp_value *spins, imp_create_error *why)
 static imp_status check(const imp_value *values, imp_create_error *why)
 {
     imp_status status = keys_check_times(TIMES, &values[TIMES], why);
-    if (status == IMP_STATUS_OK) status = check_count(values, POSITIONS, 0, why);
-    if (status == IMP_STATUS_OK) status = check_count(values, ACCELERATIONS, 1, why);
+    if (status == IMP_STATUS_OK)
+        status = keys_check_count(parameters, values, POSITIONS, values[TIMES].count, why);
+    if (status == IMP_STATUS_OK)
+        status = keys_check_count(parameters, values, ACCELERATIONS, values[TIMES].count - 1, why);
     if (status == IMP_STATUS_OK && imp_is_given(&values[ROTATIONS]) != imp_is_given(&values[SPINS]))
         return imp_reject(why, imp_is_given(&values[SPINS]) ? SPINS : ROTATIONS, -1,
                           "given alone; rotations and spins belong together");
-    if (status == IMP_STATUS_OK) status = check_count(values, ROTATIONS, 0, why);
-    if (status == IMP_STATUS_OK) status = check_count(values, SPINS, 1, why);
+    if (status == IMP_STATUS_OK)
+        status = keys_check_count(parameters, values, ROTATIONS, values[TIMES].count, why);
+    if (status == IMP_STATUS_OK)
+        status = keys_check_count(parameters, values, SPINS, values[TIMES].count - 1, why);
     if (status == IMP_STATUS_OK) status = keys_check_rotations(ROTATIONS, &values[ROTATIONS], why);
     if (status == IMP_STATUS_OK) status = check_spins(&values[SPINS], why);
     return status;
@@ -150,22 +136,12 @@ static imp_status fill(trajectory_instance *s, const imp_value *values, imp_inte
     return IMP_STATUS_OK;
 }
 
-/* Copies a list to where there is room for it, if it was given. */
-static const double *keep_list(const imp_value *list, double **room)
-{
-    double *to = *room;
-    if (!imp_is_given(list)) return NULL;
-    memcpy(to, list->number, list->count * sizeof *to);
-    *room += list->count;
-    return to;
-}
-
 static void keep_given(trajectory_instance *s, const imp_value *values, double *room)
 {
-    s->positions = keep_list(&values[POSITIONS], &room);
-    s->accelerations = keep_list(&values[ACCELERATIONS], &room);
-    s->rotations = keep_list(&values[ROTATIONS], &room);
-    s->spins = keep_list(&values[SPINS], &room);
+    s->positions = keys_keep(&values[POSITIONS], &room);
+    s->accelerations = keys_keep(&values[ACCELERATIONS], &room);
+    s->rotations = keys_keep(&values[ROTATIONS], &room);
+    s->spins = keys_keep(&values[SPINS], &room);
 }
 
 static imp_status trajectory_create(const imp_value *values, void **self, imp_create_error *why)
@@ -201,64 +177,6 @@ static void trajectory_time_domain(const void *self, double *lo, double *hi)
     *hi = s->path.time[s->path.pieces];
 }
 
-/* Joins the spins of the pieces of a span; as the speed says, where these are too many to ask
- * each. */
-static void spins_of(const trajectory_instance *s, const spline_span *span, double speed,
-                     imp_interval spin[3])
-{
-    enum { FEW = 16 };
-    const bool many = span->last - span->first >= FEW;
-    for (int j = 0; j < 3; ++j) {
-        spin[j] = many ? imp_interval_make(-speed, speed) : exact(s->rotation[span->first].spin[j]);
-        for (size_t k = span->first + 1; k <= span->last && !many; ++k)
-            spin[j] = spline_hull(spin[j], exact(s->rotation[k].spin[j]));
-    }
-}
-
-/* The integral of the spin from the middle of t on, a coordinate of it. */
-static imp_model turned_since_middle(imp_interval spin, const imp_model *t)
-{
-    imp_series g = imp_series_around(imp_model_range(t));
-    g.c[1] = imp_interval_mid(spin);
-    g.e = imp_interval_radius_upper(spin, g.c[1]) * g.r * IMP_SLACK;
-    const double most = imp_interval_mag(spin), far = imp_round_up(most * g.r);
-    return imp_compose(t, &g, imp_interval_make(-far, far), most);
-}
-
-/* R x over times of several pieces, by the last lemma above. */
-static void turn_across(const trajectory_instance *s, const spline_span *span,
-                        const imp_interval *node, imp_model t, const imp_model x[3],
-                        imp_model out[3])
-{
-    const double speed = node[s->path.width - 2].hi, stray = node[s->path.width - 1].hi;
-    const double r = imp_series_around(imp_model_range(&t)).r;
-    const double fast = speed * (1 + 4 * SPIN_MISMATCH) + stray, most = spin_size_upper(x);
-    const double slip = (0.5 * speed * fast * r + stray) * r * IMP_SLACK;
-    const double drift = (speed * fast * r + stray) * most * IMP_SLACK;
-    imp_model m[3][3], w[3], g[3];
-    imp_interval spin[3];
-    spin_matrix(&s->rotation[span->at], s->path.time[span->at], imp_num(span->m), speed, m);
-    spin_apply(m, x, w);
-    spins_of(s, span, speed, spin);
-    for (int j = 0; j < 3; ++j) g[j] = turned_since_middle(spin[j], &t);
-    for (int i = 0; i < 3; ++i) {
-        const int j = (i + 1) % 3, k = (i + 2) % 3;
-        imp_model sum = imp_sub(imp_mul(g[j], w[k]), imp_mul(g[k], w[j]));
-        sum = imp_add(w[i], sum);
-        const double e = slip * most * IMP_SLACK + IMP_TINY;
-        sum.e = imp_sum_up(sum.e + e);
-        sum.lo = imp_sum_down(sum.lo - e);
-        sum.hi = imp_sum_up(sum.hi + e);
-        sum.depends |= t.depends;
-        for (int p = 0; p < 3; ++p) {
-            const double rates = x[0].rate[p] + x[1].rate[p] + x[2].rate[p];
-            sum.rate[p] = (sum.rate[p] + (slip * rates + drift * t.rate[p]) + IMP_TINY) * IMP_SLACK;
-        }
-        const double limit = imp_round_up(most * (1 + 4 * SPIN_MISMATCH));
-        out[i] = imp_model_within(imp_model_finish(sum), imp_interval_make(-limit, limit));
-    }
-}
-
 static void trajectory_formula(const void *self, imp_model x, imp_model y, imp_model z, imp_model t,
                                imp_model out[3])
 {
@@ -275,7 +193,7 @@ static void trajectory_formula(const void *self, imp_model x, imp_model y, imp_m
         spin_matrix(&s->rotation[span.at], s->path.time[span.at], t, node[s->path.width - 2].hi, r);
         spin_apply(r, w, out);
     } else if (s->rotation != NULL) {
-        turn_across(s, &span, node, t, w, out);
+        spin_across(s->rotation, &s->path, &span, node, t, w, out);
     }
     for (int i = 0; i < 3; ++i) out[i] = imp_add(out[i], lane[i]);
 }
@@ -328,65 +246,20 @@ static imp_status trajectory_rigid(const void *self, const imp_model *t, imp_pos
 
 /* --- As text ---------------------------------------------------------------------------------- */
 
-static void define_list(const imp_text_sink *to, const char *name, const double *list, size_t count)
-{
-    for (size_t k = 0; k < count; ++k) imp_define_at(to, name, k, list[k]);
-}
-
 /* Where the center is, c0 ... c2, by the positions a and b of both keys. */
 static void write_position(const trajectory_instance *s, size_t piece, const imp_text_sink *to)
 {
-    define_list(to, "a", s->positions + 3 * piece, 3);
-    define_list(to, "b", s->positions + 3 * piece + 3, 3);
+    keys_define(to, "a", s->positions + 3 * piece, 3);
+    keys_define(to, "b", s->positions + 3 * piece + 3, 3);
     if (s->accelerations == NULL) {
         imp_add_text(to, "c0 = a0 + (b0 - a0)*s/h; c1 = a1 + (b1 - a1)*s/h; "
                          "c2 = a2 + (b2 - a2)*s/h; ");
         return;
     }
-    define_list(to, "g", s->accelerations + 3 * piece, 3);
+    keys_define(to, "g", s->accelerations + 3 * piece, 3);
     imp_add_text(to, "c0 = a0 + (b0 - a0)*s/h - g0/2*s*(h - s); "
                      "c1 = a1 + (b1 - a1)*s/h - g1/2*s*(h - s); "
                      "c2 = a2 + (b2 - a2)*s/h - g2/2*s*(h - s); ");
-}
-
-/* M_i w as m0 ... m2 and M_i+1 w as o0 ... o2, by the quaternions p and q. */
-static void write_ends(const trajectory_instance *s, size_t piece, const imp_text_sink *to)
-{
-    define_list(to, "p", s->rotations + 4 * piece, 4);
-    define_list(to, "q", s->rotations + 4 * piece + 4, 4);
-    imp_add_text(to, "n = 2/(p0^2 + p1^2 + p2^2 + p3^2); d0 = p2*w2 - p3*w1; "
-                     "d1 = p3*w0 - p1*w2; d2 = p1*w1 - p2*w0; "
-                     "m0 = w0 + n*(p0*d0 + p2*d2 - p3*d1); "
-                     "m1 = w1 + n*(p0*d1 + p3*d0 - p1*d2); "
-                     "m2 = w2 + n*(p0*d2 + p1*d1 - p2*d0); "
-                     "N = 2/(q0^2 + q1^2 + q2^2 + q3^2); e0 = q2*w2 - q3*w1; "
-                     "e1 = q3*w0 - q1*w2; e2 = q1*w1 - q2*w0; "
-                     "o0 = w0 + N*(q0*e0 + q2*e2 - q3*e1); "
-                     "o1 = w1 + N*(q0*e1 + q3*e0 - q1*e2); "
-                     "o2 = w2 + N*(q0*e2 + q1*e1 - q2*e0); ");
-}
-
-/* R w as r0 ... r2. A turn about k by the angle A takes m to k (k.m) + cos A (m - k (k.m)) + sin A
- * (k x m); without a spin it does nothing. */
-static void write_rotation(const trajectory_instance *s, size_t piece, const imp_text_sink *to)
-{
-    const double *spin = s->spins + 3 * piece;
-    write_ends(s, piece, to);
-    if (spin[0] == 0 && spin[1] == 0 && spin[2] == 0) {
-        imp_add_text(to, "r0 = m0 + s/h*(o0 - m0); r1 = m1 + s/h*(o1 - m1); "
-                         "r2 = m2 + s/h*(o2 - m2); ");
-        return;
-    }
-    define_list(to, "f", spin, 3);
-    imp_add_text(to, "l = hypot(f0, f1, f2); k0 = f0/l; k1 = f1/l; k2 = f2/l; "
-                     "D = k0*m0 + k1*m1 + k2*m2; u0 = m0 - k0*D; u1 = m1 - k1*D; u2 = m2 - k2*D; "
-                     "v0 = k1*m2 - k2*m1; v1 = k2*m0 - k0*m2; v2 = k0*m1 - k1*m0; "
-                     "r0 = k0*D + cos(l*s)*u0 + sin(l*s)*v0 + "
-                     "s/h*(o0 - k0*D - cos(l*h)*u0 - sin(l*h)*v0); "
-                     "r1 = k1*D + cos(l*s)*u1 + sin(l*s)*v1 + "
-                     "s/h*(o1 - k1*D - cos(l*h)*u1 - sin(l*h)*v1); "
-                     "r2 = k2*D + cos(l*s)*u2 + sin(l*s)*v2 + "
-                     "s/h*(o2 - k2*D - cos(l*h)*u2 - sin(l*h)*v2); ");
 }
 
 static imp_status trajectory_write_formula(const void *self, const imp_text_sink *to)
@@ -400,7 +273,8 @@ static imp_status trajectory_write_formula(const void *self, const imp_text_sink
         imp_add_text(to, "h = t1 - t0; s = t - t0; w0 = x - center0; w1 = y - center1; "
                          "w2 = z - center2; ");
         write_position(s, k, to);
-        if (s->rotations != NULL) write_rotation(s, k, to);
+        if (s->rotations != NULL)
+            spin_write(s->spins + 3 * k, s->rotations + 4 * k, s->rotations + 4 * k + 4, to);
         imp_add_text(to, s->rotations != NULL ? "c0 + r0; c1 + r1; c2 + r2"
                                               : "c0 + w0; c1 + w1; c2 + w2");
     }

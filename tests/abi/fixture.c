@@ -2,10 +2,10 @@
  * SPDX-License-Identifier: Apache-2.0 */
 
 /* The source of fixture_1_0.so, a plugin built when the ABI was 1.0, which every later release must
- * load and ask with the same answers (tests/cli/sdk_abi.bats). It uses all that the ABI has: every kind
- * of parameter, types with and without include, maps with and without apply, both with and without
- * net, a map with a pose, a surface with distances. No libm, whose answers might change. README
- * beside this file says how it was built. */
+ * load and ask with the same answers (tests/cli/sdk_abi.bats). It uses all that the ABI has: every
+ * kind of parameter, types with and without include, maps with and without apply, both with and
+ * without net, a map with a pose, a surface with distances. No libm, whose answers might change.
+ * README beside this file says how it was built. */
 
 #include <impinge/formula.h>
 #include <stdlib.h>

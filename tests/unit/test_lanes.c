@@ -7,6 +7,7 @@
 #include <string.h>
 
 #include "plugins/common/linear.c"
+#include "plugins/common/linear_bounds.c"
 #include "plugins/patch/patch_include.c"
 #include "tests/support/suite.h"
 
