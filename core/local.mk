@@ -244,7 +244,8 @@ core_survey = \
 
 core_reader = \
     core/reader/arguments.c core/reader/arguments.h \
-    core/reader/builder.c \
+    core/reader/builder.c core/reader/builder_internal.h \
+    core/reader/builder_stages.c \
     core/reader/examine.c \
     core/reader/json_keys.c core/reader/json_keys.h \
     core/reader/json_quick.c core/reader/json_quick.h \
