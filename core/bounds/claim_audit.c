@@ -8,6 +8,7 @@
 
 #include "core/base/rounding.h"
 #include "core/common/random.h"
+#include "core/tree/distance_audit.h"
 
 /* A point of a surface, within `error` of the exact one. */
 typedef struct place {
@@ -96,28 +97,13 @@ static void seek_nearest(hunt *h)
 
 /* --- The claim -------------------------------------------------------------------------------- */
 
-/* Rounding of the polynomial, in units of u of the sum of the terms' sizes: s 2 roundings, twice;
- * products 2; sums 9. */
-enum { CLAIM_ROUNDING = 32 };
-_Static_assert(2 * 2 + 2 + 9 <= CLAIM_ROUNDING, "rounding of a claim");
-
-/* Returns the lower bound of |g| at p that polynomial and range claim; below 0: no claim. */
+/* Returns the lower bound of |g| at p; below 0: no claim. */
 static double claimed_lower(const imp_model *g, const imp_region *r, const double p[3], bool slides)
 {
-    double s[3], value = g->a, size = fabs(g->a) + g->e;
+    double s[3];
     for (int j = 0; j < 3; ++j) s[j] = r->d[j] > 0 ? (p[j] - r->c[j]) / r->d[j] : 0;
     if (slides) s[PARAMETER_T] = 0;
-    for (int j = 0, k = 0; j < 3; ++j) {
-        value += g->b[j] * s[j];
-        size += fabs(g->b[j]);
-        for (int l = j; l < 3; ++l, ++k) {
-            value += g->q[k] * s[j] * s[l];
-            size += fabs(g->q[k]);
-        }
-    }
-    const double by_polynomial = fabs(value) - g->e - CLAIM_ROUNDING * UNIT_ROUNDOFF * size;
-    const double by_range = g->lo > -g->hi ? g->lo : -g->hi;
-    return by_polynomial > by_range ? by_polynomial : by_range;
+    return distance_claim_lower(g, s);
 }
 
 /* Whether the distance at that point and time alone is correct, so that the symmetry is wrong. */

@@ -21,36 +21,25 @@ typedef struct type_view {
     void (*destroy)(void *self);
 } type_view;
 
+/* The fields that surface and map types share by name. */
+#define TYPE_VIEW_OF(TYPE)                                                                         \
+    {                                                                                              \
+        .name = (TYPE)->name, .summary = (TYPE)->summary, .equation = (TYPE)->equation,            \
+        .source = (TYPE)->source, .example = (TYPE)->example,                                      \
+        .formula = IMP_OFFERS(TYPE, formula) ? (TYPE)->formula : NULL,                             \
+        .has_formula = IMP_OFFERS(TYPE, formula) || IMP_OFFERS(TYPE, write_formula),               \
+        .table = {(TYPE)->parameters, (TYPE)->parameter_count, (TYPE)->parameter_size},            \
+        .create = (TYPE)->create, .destroy = (TYPE)->destroy,                                      \
+    }
+
 static inline type_view type_view_of_surface(const imp_surface_type *type)
 {
-    return (type_view){
-        .name = type->name,
-        .summary = type->summary,
-        .equation = type->equation,
-        .source = type->source,
-        .example = type->example,
-        .formula = IMP_OFFERS(type, formula) ? type->formula : NULL,
-        .has_formula = IMP_OFFERS(type, formula) || IMP_OFFERS(type, write_formula),
-        .table = {type->parameters, type->parameter_count, type->parameter_size},
-        .create = type->create,
-        .destroy = type->destroy,
-    };
+    return (type_view)TYPE_VIEW_OF(type);
 }
 
 static inline type_view type_view_of_map(const imp_map_type *type)
 {
-    return (type_view){
-        .name = type->name,
-        .summary = type->summary,
-        .equation = type->equation,
-        .source = type->source,
-        .example = type->example,
-        .formula = IMP_OFFERS(type, formula) ? type->formula : NULL,
-        .has_formula = IMP_OFFERS(type, formula) || IMP_OFFERS(type, write_formula),
-        .table = {type->parameters, type->parameter_count, type->parameter_size},
-        .create = type->create,
-        .destroy = type->destroy,
-    };
+    return (type_view)TYPE_VIEW_OF(type);
 }
 
 #endif

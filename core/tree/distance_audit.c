@@ -99,11 +99,12 @@ static bool draw_passage(const node *n, uint64_t *state, passage *w)
 
 /* --- Checking --------------------------------------------------------------------------------- */
 
-/* Returns the lower bound of |g| at s. Rounding in units of u of the sizes: terms 2, sums 9, twice
- * that. */
+/* Rounding of the polynomial, in units of u of the sum of the terms' sizes: s 2 roundings, twice;
+ * products 2; sums 9. */
 enum { CLAIM_ROUNDING = 32 };
+_Static_assert(2 * 2 + 2 + 9 <= CLAIM_ROUNDING, "rounding of a claim");
 
-static double claimed_at(const imp_model *g, const double s[3])
+double distance_claim_lower(const imp_model *g, const double s[3])
 {
     double value = g->a, size = fabs(g->a) + g->e;
     for (int j = 0, k = 0; j < 3; ++j) {
@@ -115,7 +116,7 @@ static double claimed_at(const imp_model *g, const double s[3])
         }
     }
     const double by_polynomial = fabs(value) - g->e - CLAIM_ROUNDING * UNIT_ROUNDOFF * size;
-    const double by_range = g->lo > 0 ? g->lo : -g->hi;
+    const double by_range = g->lo > -g->hi ? g->lo : -g->hi;
     return by_polynomial > by_range ? by_polynomial : by_range;
 }
 
@@ -151,7 +152,7 @@ static imp_code judge_passage(const node *n, const passage *w, uint64_t *state, 
         for (int i = 0; i < 3; ++i) moved.x[i] = w->way[i] + w->drift[i] * s[w->along];
         const double size = vec3_norm1((vec3){{w->way[0], w->way[1], w->way[2]}});
         const double off = vec3_norm(moved) + 0x1p-40 * size + DBL_MIN;
-        const double claimed = claimed_at(&g, s);
+        const double claimed = distance_claim_lower(&g, s);
         if (claimed > off) return distance_fault(n->surface, &w->region, claimed, off, error);
     }
     return IMP_SUCCESS;

@@ -51,7 +51,7 @@ static inline void liar_times(const void *self, double *lo, double *hi)
 }
 
 /* Plugins called NAME with one type, so called too. */
-#define LIAR_SURFACE(NAME, CREATE, DESTROY, EVAL, RATE, INCLUDE)                                   \
+#define LIAR_TYPE(NAME, CREATE, DESTROY, EVAL, RATE, INCLUDE, NET)                                 \
     static const imp_surface_type liar_type = {.struct_size = sizeof(imp_surface_type),            \
                                                .parameter_size = sizeof(imp_parameter),            \
                                                .name = NAME,                                       \
@@ -63,8 +63,12 @@ static inline void liar_times(const void *self, double *lo, double *hi)
                                                .domain = wavy_domain,                              \
                                                .eval = EVAL,                                       \
                                                .rate = RATE,                                       \
-                                               .include = INCLUDE};                                \
+                                               .include = INCLUDE,                                 \
+                                               .net = NET};                                        \
     TINY_PLUGIN(NAME, liar_type)
+
+#define LIAR_SURFACE(NAME, CREATE, DESTROY, EVAL, RATE, INCLUDE)                                   \
+    LIAR_TYPE(NAME, CREATE, DESTROY, EVAL, RATE, INCLUDE, NULL)
 
 #define LIAR_MAP(NAME, EVAL, RATE, APPLY)                                                          \
     static const imp_map_type liar_type = {.struct_size = sizeof(imp_map_type),                    \

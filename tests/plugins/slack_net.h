@@ -24,19 +24,7 @@ static inline imp_status slack_net(const void *self, const imp_region *region, i
 
 /* Truthful but for its net, perhaps. */
 #define LIAR_NET(NAME, NET)                                                                        \
-    static const imp_surface_type liar_type = {.struct_size = sizeof(imp_surface_type),            \
-                                               .parameter_size = sizeof(imp_parameter),            \
-                                               .name = NAME,                                       \
-                                               .summary = "a liar",                                \
-                                               .equation = "(u, cos 3u sin 2v, v + sin(u + 2t))",  \
-                                               .example = NAME,                                    \
-                                               .create = tiny_create,                              \
-                                               .destroy = tiny_destroy,                            \
-                                               .domain = wavy_domain,                              \
-                                               .eval = wavy_formula_eval,                          \
-                                               .rate = wavy_formula_rate,                          \
-                                               .include = wavy_formula_include,                    \
-                                               .net = NET};                                        \
-    TINY_PLUGIN(NAME, liar_type)
+    LIAR_TYPE(NAME, tiny_create, tiny_destroy, wavy_formula_eval, wavy_formula_rate,               \
+              wavy_formula_include, NET)
 
 #endif

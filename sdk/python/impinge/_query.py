@@ -5,7 +5,7 @@
 
 import ctypes as c
 from time import monotonic
-from typing import Any, Callable, Iterator, NamedTuple, Optional, Sequence
+from typing import Any, Callable, Iterator, NamedTuple, Optional, Sequence, Tuple
 
 import numpy
 from numpy.typing import NDArray
@@ -82,18 +82,25 @@ class Wanted(NamedTuple):
         options.decide = self.tolerance is None and self.slices is None
 
 
+def options_of(scene: Handle, settings: Settings) -> Tuple[lib.Options, Optional[Crew]]:
+    """The options of a query or a survey; the threads that it borrows must live as long as it does."""
+    options, error, crew = lib.Options(struct_size=c.sizeof(lib.Options)), lib.Error(), None
+    code = lib.library.imp_options_get_default(scene.address, c.byref(options), c.byref(error))
+    if settings.time is None:
+        check(code, error)
+    settings.write(options)
+    if settings.threads is not None:
+        crew = Crew(values.threads(settings.threads))
+        options.parallel = c.cast(crew.function, c.c_void_p)
+    return options, crew
+
+
 class Query:
     """A query of libimpinge, freed at the end of its `with`. With `wanted` it is one of clearance."""
 
     def __init__(self, scene: Handle, settings: Settings, wanted: Optional[Wanted] = None):
-        options, error = lib.Options(struct_size=c.sizeof(lib.Options)), lib.Error()
-        code = lib.library.imp_options_get_default(scene.address, c.byref(options), c.byref(error))
-        if settings.time is None:
-            check(code, error)
-        settings.write(options)
-        if settings.threads is not None:
-            self._crew = Crew(values.threads(settings.threads))
-            options.parallel = c.cast(self._crew.function, c.c_void_p)
+        options, self._crew = options_of(scene, settings)
+        error = lib.Error()
         limit = options.max_seconds
         self.until = monotonic() + limit if limit > 0 else float("inf")  # when its time is over
         if wanted is None:

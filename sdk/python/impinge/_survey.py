@@ -8,10 +8,8 @@ from time import monotonic
 from typing import Any, Callable, Dict, NamedTuple, Optional, Sequence, Tuple
 
 from . import _library as lib
-from . import _values as values
-from ._crew import Crew
 from ._handle import Handle
-from ._query import SECONDS, Settings, Wanted
+from ._query import SECONDS, Settings, Wanted, options_of
 from .errors import check
 from .results import Progress
 
@@ -59,14 +57,8 @@ class Survey:
                  bodies: Optional[Tuple[int, int]] = None, ranges: Optional[Ranges] = None):
         self._scene, self._progress, self._is_clearance = scene, settings.progress, wanted is not None
         self._names = tuple(parameters_of(scene))
-        options, error = lib.Options(struct_size=c.sizeof(lib.Options)), lib.Error()
-        code = lib.library.imp_options_get_default(scene.address, c.byref(options), c.byref(error))
-        if settings.time is None:
-            check(code, error)
-        settings.write(options)
-        if settings.threads is not None:
-            self._crew = Crew(values.threads(settings.threads))
-            options.parallel = c.cast(self._crew.function, c.c_void_p)
+        options, self._crew = options_of(scene, settings)
+        error = lib.Error()
         how = lib.SurveyOptions(struct_size=c.sizeof(lib.SurveyOptions))
         check(lib.library.imp_survey_options_get_default(c.byref(how), c.byref(error)), error)
         how.any = any
