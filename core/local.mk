@@ -83,7 +83,7 @@ core_plugin = \
     core/plugin/elf_tables.c core/plugin/elf_tables.h core/plugin/elf_tables_internal.h \
     core/plugin/file_trust.c core/plugin/file_trust.h \
     core/plugin/isolate.c core/plugin/isolate.h core/plugin/isolate_internal.h \
-    core/plugin/isolate_stand_in.c \
+    core/plugin/isolate_ahead.c core/plugin/isolate_stand_in.c \
     core/plugin/json_describe.c core/plugin/json_describe.h \
     core/plugin/kept_instances.c core/plugin/kept_instances.h \
     core/plugin/load_cache.c \

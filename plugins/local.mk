@@ -154,6 +154,7 @@ plugins_libcommon_la_SOURCES = \
     plugins/common/course_table.c \
     plugins/common/csv.c plugins/common/csv.h \
     plugins/common/csv_cell.c plugins/common/csv_cell.h \
+    plugins/common/csv_head.c plugins/common/csv_head.h \
     plugins/common/units.c plugins/common/units.h \
     plugins/common/facet.c plugins/common/facet.h \
     plugins/common/frame.c plugins/common/frame.h \

@@ -7,8 +7,8 @@
 
 /* The inside of an isolated instance
  * ==================================
- * For its two files: isolate.c creates and destroys it; isolate_stand_in.c is what the rest of core
- * takes for its type. */
+ * For its three files: isolate.c creates and destroys it; isolate_stand_in.c is what the rest of
+ * core takes for its type; isolate_ahead.c asks for models of many pieces at once. */
 
 /* The models of some pieces over their domains and a span of times, which came with those of the
  * piece before them: who asks for one after the other, as hierarchies do, would wait for a reply to
@@ -46,5 +46,10 @@ static inline bool isolate_is_own_piece(const isolated *i)
 {
     return i->piece_count == 1 && i->pieces != NULL && i->pieces[0].self == i->own.self;
 }
+
+/* Takes the model of a piece from those that came ahead. *done false: there is none, ask for it
+ * alone. The worker has been entered. */
+imp_status isolate_include_ahead(isolated_piece *piece, const imp_region *region,
+                                 imp_model model[3], bool *done);
 
 #endif
