@@ -91,8 +91,8 @@ static imp_code put_formula(file *f, const surface *s, size_t stage, imp_error *
     return IMP_SUCCESS;
 }
 
-/* Writes an instance that was not written yet: each of its formulas is a line; one that cannot be
- * said is empty. */
+/* Writes an instance that was not written yet: each of its formulas is a line, empty where the type
+ * has none. */
 static imp_code put_stage(file *f, const surface *s, size_t stage, imp_error *error)
 {
     const shared_instance *p = surface_origin(s, stage);
@@ -165,7 +165,7 @@ static void put_order(file *f, const candidate *c)
     for (size_t k = 0; k < count; ++k) put_count(f, hierarchy_order(root->many->of)[k]);
 }
 
-/* Returns whether the candidate's k-d tree covers one moment in place of all times. */
+/* Returns whether the search examined one moment of the pair in place of all times. */
 static bool rests(const file *f, const candidate_pair *both)
 {
     const imp_region *r = &tree_root(both->side[0]->tree)->region;

@@ -32,7 +32,7 @@ typedef struct proof_search {
 } proof_search;
 
 /* Writes a certificate. `stated`: lines that name the sources, each with its newline; NULL: none.
- * IMP_ERROR_MEMORY, or as plugins fail to say their formulas. */
+ * Fails with IMP_ERROR_MEMORY, or as a plugin fails that is asked for a formula. */
 imp_code proof_file_write(const imp_scene *scene, const proof_search *search,
                           const proof_claim *claim, const char *stated, const proof_sink *to,
                           imp_error *error);

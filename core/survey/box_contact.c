@@ -5,7 +5,8 @@
 #include "core/base/rounding.h"
 #include "core/survey/box_question.h"
 
-/* Notes that nothing comes near in the box before t, of the parameter that is swept. */
+/* Records that nothing comes near while the swept parameter is below t, and cuts that part off the
+ * box. */
 static void prove_swept(imp_survey *s, survey_box *box, double t)
 {
     double *range = box->range + 2 * s->pairs[box->pair].swept;
@@ -18,7 +19,7 @@ static void prove_swept(imp_survey *s, survey_box *box, double t)
     range[0] = t, range[1] = hi;
 }
 
-/* Notes that nothing comes near in the box before a time of its queries. */
+/* Records that nothing comes near in the box before t, a time of its queries. */
 static void prove_until(imp_survey *s, survey_box *box, double t, bool is_clear)
 {
     const double all = s->options.t_end - s->options.t_start;
@@ -43,10 +44,10 @@ static void note_contact(imp_survey *s, const survey_box *box, const imp_result 
     if (s->how.any) s->reason = IMP_REASON_NONE;
 }
 
-/* Asks without room for the shift: a contact bounds the earliest from above. Where the middle lies
- * on the edge of the values that touch, gaps of about gamma last along whole edges, and such a
- * search would take a thousand times the pairs of the one with room, which took `pairs`; beside the
- * contact there are others that are easier to find, and so it is given up. */
+/* Runs the query at the middle without room for the shift: a contact there bounds the earliest from
+ * above. Where the middle lies on the edge of the values that touch, gaps of about gamma last along
+ * whole edges, and this search can take a thousand times the `pairs` of the one with room. Its
+ * number of pairs is limited, since boxes beside this one have contacts that are easier to find. */
 enum { OWN_PAIRS_LEAST = 1024, OWN_PAIRS_TIMES = 8 };
 
 static imp_code ask_own(imp_survey *s, const survey_box *box, imp_scene *scene, uint64_t pairs,
@@ -65,15 +66,15 @@ static imp_code ask_own(imp_survey *s, const survey_box *box, imp_scene *scene, 
     return IMP_SUCCESS;
 }
 
-/* Tells the sink about the times after a contact that is known: nobody asks about them. */
+/* Reports the times after a known contact to the sink as undecided: they are not searched. */
 static void tell_later(imp_survey *s, const survey_box *box)
 {
     if (box_is_swept(&s->pairs[box->pair]) || !(box->key < s->options.t_end)) return;
     survey_tell(s, box, box->key, s->options.t_end, IMP_VERDICT_UNDECIDED, 0);
 }
 
-/* Asks the query with room for the shift; what is excluded along the way the values move the bodies
- * counts, too, unless a contact is to be one of the scene (is_fine). */
+/* Runs the query with room for the shift. Unless a contact must be one of the scene (is_fine),
+ * pairs are also excluded by the directions in which the values move the bodies (pair_spread.h). */
 static imp_code run_box(imp_survey *s, const survey_box *box, imp_scene *scene,
                         const survey_view *view, const double gamma[2], bool is_fine,
                         imp_result *found, imp_error *error)
@@ -90,8 +91,8 @@ static imp_code run_box(imp_survey *s, const survey_box *box, imp_scene *scene,
     return code;
 }
 
-/* Asks the query with room for the shift, then, where a contact is too coarse to be one of the
- * scene, the query without. */
+/* Runs the query with room for the shift. If its contact is too coarse to be one of the scene, runs
+ * the query without that room. */
 static imp_code ask_queries(imp_survey *s, survey_box *box, imp_scene *scene,
                             const survey_view *view, box_rest *rest, imp_error *error)
 {

@@ -31,7 +31,8 @@ static void settle(imp_survey *s, const survey_box *box)
     survey_tell(s, box, s->options.t_start, s->options.t_end, IMP_VERDICT_CLEAR, box->key);
 }
 
-/* Returns how narrow the bracket at the middle is to be: the shift blurs it anyhow. */
+/* Returns the tolerance of the bracket at the middle. A bracket much narrower than the shift gains
+ * nothing. */
 static double tolerance_of(const imp_survey *s, double total)
 {
     const double own = 0.5 * s->asked.tolerance, least = own > 1e-9 ? own : 1e-9, most = 0.25;

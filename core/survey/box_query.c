@@ -9,7 +9,8 @@
 #include "core/scene/posed_scene.h"
 #include "core/survey/box_question.h"
 
-/* The pairs that parameters move are searched on their own. */
+/* Ignores, in the query about all other pairs, the pairs of bodies that parameters move: each has
+ * boxes of its own. */
 static imp_code ignore_moved(const imp_survey *s, imp_scene *scene)
 {
     imp_code code = scene_copy_relations(s->scene, scene);
@@ -51,7 +52,7 @@ double survey_seconds(const imp_survey *s)
 
 #define PROGRESS_EVERY 0.1 /* seconds between reports */
 
-/* Adds the survey's own to what a query reports. */
+/* Adds the survey's own counts to those of a query. */
 static bool report(void *context, const imp_progress *of_query)
 {
     imp_survey *s = context;

@@ -9,11 +9,11 @@
  * the middle of the box, box_contact.c and box_distance.c draw the conclusions for the earliest
  * contact and for the least distance, survey_box.c has what both share. */
 
-/* What is left of a box that was asked about. */
+/* What is left of a box after its queries. */
 typedef enum box_rest {
     BOX_OPEN,   /* to be halved */
     BOX_DONE,   /* nothing, or nothing that could change the answer */
-    BOX_WAITING /* all of it: a limit came, or double precision resolves no more */
+    BOX_WAITING /* all of it: a limit ended the query, or doubles cannot resolve more */
 } box_rest;
 
 /* The times of the queries of a box: what is left of the parameter that is swept, or of time. */
@@ -41,7 +41,7 @@ imp_code box_run_distance(imp_survey *s, imp_scene *scene, query_times times, do
 
 bool box_is_limit(imp_reason reason);
 
-/* Notes why the survey ends, where a query met a limit. */
+/* Records the reason if it is a limit, which ends the survey. */
 bool box_must_end(imp_survey *s, imp_reason reason);
 
 /* Measures the box over the times in question: for a contact, those that are left. */
@@ -51,10 +51,11 @@ imp_code box_measure(imp_survey *s, const survey_box *box, survey_view *view, im
 imp_code box_split(imp_survey *s, const survey_box *box, const survey_view *view, bool *done,
                    imp_error *error);
 
-/* Replaces the bodies' indices in the scene of a box by those in the scene. */
+/* Replaces indices of bodies in a box's scene by those in the survey's scene. */
 void box_name_side(const survey_pair *pair, imp_side *a, imp_side *b);
 
-/* Keeps the values of a witness at a time of its query, and replaces that by the scene's time. */
+/* Stores the values at which a witness was found, and converts *t from a time of its query to the
+ * scene's time. */
 void box_keep_values(imp_survey *s, const survey_box *box, double *t);
 
 /* Asks about a box; *rest is BOX_OPEN at the call. */

@@ -13,7 +13,7 @@
 
 /* --- What is asked ---------------------------------------------------------------------------- */
 
-/* Bytes of the first versions. */
+/* Sizes of the structs in their first versions. */
 #define HOW_FIRST offsetof(imp_survey_options, resume)
 #define ASKED_FIRST offsetof(imp_clearance_options, decide)
 
@@ -105,7 +105,7 @@ static bool make_room(imp_survey *s)
     return true;
 }
 
-/* What is required, and nothing else, is a search for any contact at that distance. */
+/* A required distance alone is a search for any contact at that distance. */
 static void set_aims(imp_survey *s)
 {
     const bool decides = s->is_clearance && s->asked.decide && s->asked.required > 0;
@@ -214,8 +214,8 @@ static bool is_decided(const imp_survey *s)
     return first->key >= survey_distance_enough(s) || s->best.distance <= s->gamma;
 }
 
-/* Tells the sink which boxes are undecided: of one that was interrupted all that was undecided
- * before. They stay in the queue: a later step may decide them. */
+/* Reports the undecided boxes to the sink; an interrupted box is reported as it was before the
+ * interruption. They stay in the queue, since a later step may decide them. */
 static imp_code tell_rest(imp_survey *s, imp_error *error)
 {
     survey_told **kept = s->told;
@@ -242,7 +242,7 @@ static void conclude(imp_survey *s)
 FP_APART static imp_code step(imp_survey *s, uint64_t boxes, imp_error *error)
 {
     const uint64_t last = s->boxes + boxes;
-    survey_mark_drop(s); /* within a process what an interrupted query found out is used */
+    survey_mark_drop(s); /* the results of an interrupted query are used within one process */
     imp_code code = survey_flush(s, error);
     s->reason = IMP_REASON_RUNNING;
     while (code == IMP_SUCCESS && s->reason == IMP_REASON_RUNNING) {

@@ -136,7 +136,7 @@ bool imp_survey_values(const imp_survey *s, double *values)
     return true;
 }
 
-/* A decided search needs nothing of the boxes that wait. */
+/* Returns the share that is proved: 1 if the search is decided, whatever boxes still wait. */
 FP_APART static double share_of(const imp_survey *s)
 {
     const bool is_all =

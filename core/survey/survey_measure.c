@@ -8,7 +8,7 @@
 #include "core/base/status.h"
 #include "core/survey/survey_internal.h"
 
-/* The greater; INFINITY where `one` is NaN, which no later number replaces. `most` is no NaN. */
+/* Returns the greater; INFINITY if `one` is NaN. `most` is no NaN. */
 static double greater(double most, double one)
 {
     return one <= most ? most : isnan(one) ? INFINITY : one;

@@ -149,7 +149,7 @@ imp_code survey_add_roots(imp_survey *s, double key, imp_error *error)
 
 /* --- What queries take for their time --------------------------------------------------------- */
 
-/* The last maps that both share count here, since queries apply them. */
+/* The last maps that both bodies share are included, since queries apply them. */
 static imp_code choose_swept(imp_survey *s, const survey_box *box, double t_start, double t_end,
                              imp_error *error)
 {
@@ -166,8 +166,9 @@ static imp_code choose_swept(imp_survey *s, const survey_box *box, double t_star
     return IMP_SUCCESS;
 }
 
-/* Lemma. Where a parameter takes the place of time, what follows time is evaluated at its values,
- * too. What has rates of 0 in t over the times and all values is the same at all of them. */
+/* Lemma. Where a parameter takes the place of time, stages that follow time are evaluated at the
+ * values of the parameter, too. A stage whose rates in t are 0 over the times and all these values
+ * is the same at all of them. */
 imp_code survey_choose_swept(imp_survey *s, imp_error *error)
 {
     double t_start = s->options.t_start, t_end = s->options.t_end;

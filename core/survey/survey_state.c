@@ -147,7 +147,7 @@ static double number_of(const json_t *json)
     return json_is_number(json) ? json_number_value(json) : INFINITY;
 }
 
-/* Reads an index that is below `count`. */
+/* Reads an index. False: it is not below `count`. */
 static bool read_index(const json_t *json, size_t count, size_t *to)
 {
     const json_int_t i = json_is_integer(json) ? json_integer_value(json) : -1;
@@ -175,7 +175,7 @@ static bool read_box(imp_survey *s, const json_t *list, survey_box *box)
     return true;
 }
 
-/* `*good` false: what is said of them cannot be. */
+/* *good false: the list contradicts the question or itself. */
 static imp_code read_waiting(imp_survey *s, const json_t *list, bool *good, imp_error *error)
 {
     box_queue_clear(&s->queue);
@@ -269,7 +269,7 @@ static imp_code read_state(imp_survey *s, const json_t *state, bool *good, imp_e
     return read_waiting(s, json_object_get(state, "waiting"), good, error);
 }
 
-/* A question is read back as it is written, so that both are compared as text is. */
+/* Compares the questions as text: numbers read back as they were written. */
 static imp_code check_question(const imp_survey *s, const json_t *state, imp_error *error)
 {
     json_t *own = question_json(s), *then = json_object_get(state, "question");

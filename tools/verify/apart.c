@@ -29,7 +29,8 @@ static void normal(const jet x[3], double n[3])
     }
 }
 
-/* The middle of the box around the centres of some pieces, which may not exist. */
+/* Computes the middle of the box around the centres of some of a side's pieces, of 8 to 15 if there
+ * are more. Pieces without an enclosure are left out. */
 static void centre_of(prover *p, const cell *c, int side, double x[3])
 {
     double lo[3] = {INFINITY, INFINITY, INFINITY}, hi[3] = {-INFINITY, -INFINITY, -INFINITY};
@@ -47,7 +48,8 @@ static void centre_of(prover *p, const cell *c, int side, double x[3])
     for (int i = 0; i < 3; ++i) x[i] = 0.5 * lo[i] + 0.5 * hi[i];
 }
 
-/* The hint, the direction of the centres, and the normals of single pieces, from A to B. */
+/* The axes that are tried: the hint, the direction of the centres, and both normals of single
+ * pieces; all from A to B. */
 enum { AXES = 4 };
 
 static void find_axes(prover *p, const cell *c, double n[AXES][3])
@@ -68,8 +70,8 @@ static void find_axes(prover *p, const cell *c, double n[AXES][3])
     }
 }
 
-/* The variable that the shadows depend on most, for what can be divided; the widest of equals.
- * False: nothing can be divided. */
+/* Finds the variable that the projections depend on most, among those that can be divided; the
+ * widest of equals. False: none can be divided. */
 static bool widest(const cell *c, const apart_trial *tried, cut *by)
 {
     double most = -1, width = 0;
@@ -86,7 +88,8 @@ static bool widest(const cell *c, const apart_trial *tried, cut *by)
     return width > 0;
 }
 
-/* The side of many pieces with the greater shadow, or time if the pieces depend on it more. */
+/* Chooses the side of many pieces whose projection is longer, or time if the pieces depend on it
+ * more. */
 static bool divide_many(const cell *c, const apart_trial *tried, cut *by)
 {
     double size[2];
@@ -97,7 +100,8 @@ static bool divide_many(const cell *c, const apart_trial *tried, cut *by)
     return true;
 }
 
-/* Whether two points, those of the centres, are surely nearer, or a single piece has parts. */
+/* Tests whether the points at the centres are surely too near, or a single piece has to be divided
+ * at the end of a part. */
 static apart_outcome look_at_pieces(prover *p, const cell *c, cut *by, double *found)
 {
     ld_interval x[2][3];

@@ -25,15 +25,16 @@ typedef struct prover {
     areas areas[2];                  /* of either side; to be freed */
     centre centres[2];               /* of either side, as guessed in this leaf or before */
     int centre_count;
-    size_t boxes;     /* of axes */
-    size_t wasted;    /* boxes of centres, since one of them parted a cell */
+    size_t boxes;     /* boxes tested along axes */
+    size_t wasted;    /* boxes tested about centres since a centre last proved a cell */
     bool has_guessed; /* in this leaf */
     cell worst;       /* where it ended, and */
     double found;     /* what was found there: two points so near, or INFINITY: nothing but */
     const char *why;  /* this */
 } prover;
 
-/* Forgets what leaves before have told, so that a leaf's effort depends on no other share. */
+/* Forgets what earlier leaves have shown, so that a leaf takes the same tests in any division into
+ * shares. */
 void prover_forget(prover *p);
 
 /* Makes `c` all of both pieces, if they are single. */
@@ -50,7 +51,7 @@ typedef struct cut {
 bool cell_split(const prover *p, const cell *c, const cut *by, cell half[2]);
 
 /* Proves that no two points of the cell at one time are nearer than p->apart. False: p->worst,
- * found and why tell. */
+ * p->found and p->why say where and why not. */
 bool prove_apart(prover *p, const cell *c);
 
 #endif

@@ -7,8 +7,8 @@
 
 #include "tools/verify/apart_internal.h"
 
-/* Divisions of a side's boxes along one axis, or about a centre, about which all of a surface may
- * be proved at once. */
+/* Limits of divisions of a side's boxes, along one axis and about a centre. A centre may prove all
+ * of a surface at once, and is worth more. */
 enum { REFINEMENTS = 96, REFINEMENTS_ROUND = 1024 };
 
 apart_outcome apart_fail(prover *p, const cell *c, double found, const char *why)
@@ -59,8 +59,8 @@ static void take_trial(const prover *p, double limit, apart_trial *tried)
     }
 }
 
-/* Bounds lose what they lack, most - low, about as 1 / step where two variables are divided: gives
- * up where they will lack too much, or cost too much, when they are done. */
+/* The excess of a bound, most - low, falls about as 1 / step where two variables are divided.
+ * Returns whether it will still be too large, or cost too much, at the last step. */
 static bool is_hopeless(int step, int steps_most, double low, double most)
 {
     const double lacks = (most - low) / most;
@@ -88,7 +88,8 @@ static apart_outcome try_aims(prover *p, const cell *c, const aim a[2], double c
     take_trial(p, limit, tried);
     const int steps = a[0].about != NULL ? REFINEMENTS_ROUND : REFINEMENTS;
     for (int step = 0;; ++step) {
-        if (p->areas[0].count == 0 || p->areas[1].count == 0) return APART; /* it does not exist */
+        if (p->areas[0].count == 0 || p->areas[1].count == 0)
+            return APART; /* the surface does not exist there */
         const reach r[2] = {areas_reach(&p->areas[0]), areas_reach(&p->areas[1])};
         const ld_interval sum =
             ld_interval_add(ld_interval_of(r[0].bound), ld_interval_of(r[1].bound));
@@ -113,8 +114,8 @@ apart_outcome apart_by_axis(prover *p, const cell *c, const double n[3], apart_t
     return o;
 }
 
-/* Tests of a leaf before its surfaces' centres are guessed; and boxes that centres may waste,
- * beside 1 / WASTE_PART of all boxes of axes. */
+/* Tests of a leaf before the centres of its surfaces are guessed; and how many boxes may be tested
+ * about centres without a proof, in addition to 1 / WASTE_PART of all boxes tested along axes. */
 enum { TESTS_BEFORE_CENTRES = 6, WASTE_MOST = 4096, WASTE_PART = 64 };
 
 static void guess_centres(prover *p, const cell *c)

@@ -10,11 +10,12 @@
 
 typedef enum apart_outcome { APART, DIVIDE, STUCK } apart_outcome;
 
-/* What is known of an axis that does not do it, from the undivided pieces. */
+/* What the undivided pieces show of an axis that does not separate them. */
 typedef struct apart_trial {
-    double left;               /* what is missing, by what is left over between the centres */
-    double size[2][VARIABLES]; /* a piece's dependence on the variables, at most, about */
-    double width[2];           /* of the bounds of each side */
+    double left; /* gap that is missing, by the gap between the centres */
+    double size[2]
+               [VARIABLES]; /* estimate of how much a side's projection depends on each variable */
+    double width[2];        /* of the bounds of each side */
 } apart_trial;
 
 /* Returns piece k of a side, in the order of the prover. */
@@ -29,7 +30,7 @@ apart_outcome apart_fail(prover *p, const cell *c, double found, const char *why
 
 ld_interval apart_length(const ld_interval x[3]);
 
-/* Tests one axis, which need not be a unit vector; what is known of it then is in *tried. */
+/* Tests one axis, which need not be a unit vector, and describes the result in *tried. */
 apart_outcome apart_by_axis(prover *p, const cell *c, const double n[3], apart_trial *tried);
 
 /* Tests the centres of both surfaces of a cell of single pieces. */

@@ -123,7 +123,7 @@ static bool is_undefined(const jet x[3])
     return x[0].is_undefined || x[1].is_undefined || x[2].is_undefined;
 }
 
-/* Lets x, y and z be anything. */
+/* Sets x, y and z to the whole line. */
 static void forget(jet x[3])
 {
     const ld_interval all = ld_interval_entire();
@@ -264,7 +264,7 @@ static double worst(const piece *p, double lo, double hi, int depth, jet room[])
         }
         if (d <= DEVIATION_SMALL || depth >= HALVINGS || !(lo < at && at < hi) || isinf(d))
             return d;
-        if (there > 0.5 * d) return d; /* it is no smaller there */
+        if (there > 0.5 * d) return d; /* halving gains nothing */
     } else {
         at = divide.at;
     }

@@ -16,7 +16,7 @@ typedef enum enclosed {
     ENCLOSED,
     ENCLOSED_EMPTY,    /* the surface does not exist there */
     ENCLOSED_SPLIT,    /* divide the box at `at` of variable `along` */
-    ENCLOSED_UNSAID,   /* a formula leaves open what is there */
+    ENCLOSED_UNSAID,   /* the certificate has no formula for what is there */
     ENCLOSED_UNDEFINED /* a formula has no value at `at` */
 } enclosed;
 

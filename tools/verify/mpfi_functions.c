@@ -101,7 +101,7 @@ ld_interval ld_interval_sinh(ld_interval x) { return by(mpfi_sinh, x); }
 ld_interval ld_interval_cosh(ld_interval x) { return by(mpfi_cosh, x); }
 ld_interval ld_interval_tanh(ld_interval x) { return by(mpfi_tanh, x); }
 
-/* A wave is in [-1, 1]; where the argument is long, that is all. */
+/* Computes a sine or cosine. For a wide argument the result is [-1, 1]. */
 static ld_interval wave(unary *f, ld_interval x)
 {
     if (!(x.hi - x.lo < 6.25) || ld_interval_mag(x) > 0x1p40) return ld_interval_make(-1, 1);

@@ -92,7 +92,7 @@ static bool solve(int size, double m[UNKNOWNS][UNKNOWNS], double b[UNKNOWNS])
     return true;
 }
 
-/* A mean square of distances, of a surface of size 1, that is due to rounding. */
+/* A mean square of distances below this, for a surface of size 1, is rounding. */
 #define NEAR 1e-16
 
 /* The point nearest to all lines, by least squares. */

@@ -15,8 +15,8 @@ typedef struct centre {
     double c[3], d[3]; /* the line through c along d, or the point c */
 } centre;
 
-/* Guesses the centre of a piece at time t from normals of it, which all meet the centre. False: it
- * has none, as far as is seen. What is computed from a bad guess costs time only. */
+/* Guesses the centre of a piece at time t: its normals all meet there. False: no centre was found.
+ * A bad guess costs time and proves nothing false. */
 bool centre_guess(kept *memory, const place *of, double t, centre *found);
 
 /* Makes the aims of both sides from that centre to points beyond, and an upper bound of how much

@@ -58,9 +58,9 @@ static void subtract_line(jet *x, const aim *a, ld_interval t)
     x->on |= 1 << T;
 }
 
-/* Dependence on each variable by derivatives, about. No more is shared out among the variables than
- * what the values vary by; where derivatives have no bounds, it is shared by the variables' widths.
- */
+/* Estimates the dependence on each variable by derivatives. Their sum is at most the width of the
+ * values; where derivatives have no bounds, that width is divided in proportion to the variables'
+ * widths. */
 static void find_sizes(const jet *over, const jet *at, const double half[VARIABLES], shadow *s)
 {
     const double most = over->v.hi - over->v.lo;

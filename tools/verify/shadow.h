@@ -25,8 +25,8 @@ typedef struct kept {
     jet box[3], centre[3]; /* about the point c */
 } kept;
 
-/* Encloses a box of a piece, or finds that again; another call may overwrite it. `memory`: KEPT of
- * them. */
+/* Returns the enclosure of a box of a piece, computed or found among the last ones. Another call
+ * may overwrite it. `memory`: KEPT entries. */
 const kept *kept_look(kept *memory, const place *of, const box3 *where);
 
 /* The middle of an interval, within it. */
@@ -40,8 +40,9 @@ static inline double middle(double lo, double hi)
 
 typedef struct centre centre; /* round.h */
 
-/* Each side's own direction of an axis: n of A, -n of B. A line in time is subtracted, which both
- * sides have in common, so that it cancels. Or away from a centre, if n[0] > 0, or towards it. */
+/* The direction in which a side's reach is measured: n for A, -n for B. A line in time that both
+ * sides have in common is subtracted, and cancels. With a centre: away from it if n[0] > 0, else
+ * towards it. */
 typedef struct aim {
     double n[3], slope, mid;
     const centre *about; /* NULL: an axis */
@@ -68,7 +69,8 @@ typedef struct areas {
     kept *memory;
 } areas; /* freed by free(at) */
 
-/* NULL, or why not. Nothing is added where the surface does not exist. */
+/* Adds an area; nothing is added where the surface does not exist. Returns NULL, or why the area
+ * has no enclosure. */
 const char *areas_add(areas *all, const place *of, const box3 *where, const aim *a);
 
 /* Divides an area along what it depends on most. Sets *divided to false if it cannot be divided. */
@@ -82,7 +84,7 @@ typedef struct reach {
 
 reach areas_reach(const areas *all);
 
-/* Why a box of a surface is not known; NULL: it is. */
+/* Returns why a box of a surface has no enclosure; NULL: it has one. */
 const char *shadow_why_unknown(enclosed result);
 
 #endif

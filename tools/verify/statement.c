@@ -106,8 +106,7 @@ static int compare_names(const void *x, const void *y)
     return strcmp(*(char *const *)x, *(char *const *)y);
 }
 
-/* Refuses two bodies of one name, since a reader would take the answer for one as that for the
- * other. */
+/* Refuses two bodies of one name: their claims could not be told apart. */
 static bool check_names(const statement *s, input *in)
 {
     const char **sorted = malloc((s->body_count + 1) * sizeof *sorted);

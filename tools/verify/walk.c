@@ -97,7 +97,7 @@ static bool take_entry(pair *p, const cell *c, int depth)
     say_split(p, c, &by);
     const bool is_pieces = op < WALK_TIME && c->count[by.side] > 1;
     if (is_pieces && by.along != 0) return input_refuse(in, "pieces are divided along v");
-    /* A half that is not smaller covers the same again. */
+    /* halves cover the cell even if one is not smaller */
     cell_split(&p->prover, c, &by, half);
     if (op == WALK_TIME && !(c->t[0] <= by.at && by.at <= c->t[1]))
         return input_refuse(in, "time is divided outside of the cell");
@@ -221,7 +221,7 @@ static bool take_pair(walk *w, size_t a, size_t b, const work *room)
     return good;
 }
 
-/* All surfaces of two bodies, in the order of the scene. */
+/* Proves all pairs of surfaces of two bodies, in the order of the scene. */
 static bool take_bodies(walk *w, size_t a, size_t b, const size_t *first, const work *room)
 {
     for (size_t i = first[a]; i < first[a + 1]; ++i)
