@@ -41,7 +41,7 @@ static int rank_of_report(const json_t *report)
 
 const char *badge_label(const json_t *report) { return labels[rank_of_report(report)][0]; }
 
-/* The verdicts by the checks' names. */
+/* Returns the verdicts by the checks' names. */
 static json_t *verdicts_json(const json_t *checks)
 {
     json_t *verdicts = json_object();

@@ -29,7 +29,7 @@ static void call_model(const subject *s, uint64_t *random)
     subject_model(s, draw_box(random, &s->domain, s->n), model);
 }
 
-/* A net to start from: a point at the origin, which rests. */
+/* Asks for a net, beginning with a point at the origin, which rests. */
 static void call_net(const subject *s, uint64_t *random)
 {
     const imp_instance *i = s->instance;

@@ -37,7 +37,7 @@ typedef struct part {
     double lo[2], hi[2];
 } part;
 
-/* Whether the whole surface at time t is surely farther than `least` from x. */
+/* Returns whether the whole surface at time t is surely farther than `least` from x. */
 static bool is_off(const subject *s, const double x[3], double t, double least)
 {
     static part parts[PARTS + 2];

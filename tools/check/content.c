@@ -37,8 +37,8 @@ typedef struct defaults {
     size_t type; /* index in the content */
 } defaults;
 
-/* Whether create takes the stage; else *fault says why. Without memory or a registry it is left to
- * the checks. */
+/* Returns whether create takes the stage; else *fault says why. Without memory or a registry it is
+ * left to the checks. */
 static bool works(const defaults *d, imp_type_kind kind, const char *stage, imp_error *fault)
 {
     imp_instance made = {NULL, NULL, NULL};

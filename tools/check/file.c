@@ -55,7 +55,7 @@ static bool section(const image *m, const Elf64_Ehdr *head, uint64_t index, Elf6
            image_get(m, head->e_shoff + index * sizeof *found, found, sizeof *found);
 }
 
-/* A name in a string table, NUL included, or NULL. */
+/* Returns a name in a string table, NUL included, or NULL. */
 static const char *name_at(const image *m, const Elf64_Shdr *strings, uint64_t offset)
 {
     if (strings->sh_offset > m->size || strings->sh_size > m->size - strings->sh_offset)

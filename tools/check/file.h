@@ -7,10 +7,10 @@
 
 /* Checks of a plugin's file that need none of its types. */
 
-/* The plugin exports exactly one symbol of its own, impinge_plugin. */
+/* Checks that the plugin exports exactly one symbol of its own, impinge_plugin. */
 void exports_check(const char *file, check_answer *answer);
 
-/* The compiler left sums and products as they were written; a note where not. */
+/* Checks that the compiler left sums and products as they were written; a note where not. */
 void build_check(const char *file, check_answer *answer);
 
 /* Unknown ids get no factory. */

@@ -198,7 +198,7 @@ static json_t *varied(const json_t *value, uint64_t *random)
     return json_real(x == 0 ? way : x * (1 + way));
 }
 
-/* The stage with other numbers; of booleans, perhaps, the other. NULL: it has none. */
+/* Returns the stage with other numbers; of booleans, perhaps, the other. NULL: it has none. */
 static char *varied_stage(const imp_registry *registry, const imp_type_info *type,
                           const char *stage, uint64_t *random)
 {

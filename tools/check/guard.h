@@ -20,8 +20,8 @@ typedef struct guard {
 /* Allocates this many bytes. False: no memory. */
 bool guard_make(guard *g, size_t room);
 
-/* A copy of the bytes at the end; earlier content is overwritten. `data` may be NULL: then the
- * bytes are 0xff. NULL: not enough room. */
+/* Returns a copy of the bytes at the end; earlier content is overwritten. `data` may be NULL: then
+ * the bytes are 0xff. NULL: not enough room. */
 void *guard_place(guard *g, const void *data, size_t size);
 
 /* From now on none of it can be read or written. */

@@ -157,7 +157,7 @@ static bool judge_sample(const included *n, const sample *x)
 
 /* --- Climbing --------------------------------------------------------------------------------- */
 
-/* How near a coordinate is to a violation: distance from the quadratic in remainders. */
+/* Returns how near a coordinate is to a violation: distance from the quadratic in remainders. */
 static double strain(const included *n, int i, const sample *x)
 {
     const double e = n->model[i].e;
@@ -199,7 +199,7 @@ static bool judge_points(const included *n, uint64_t *random, bool climbs)
     return !climbs || climb(n, suspect, *worst);
 }
 
-/* The place of the k-th region: spread evenly, or random. */
+/* Returns the place of the k-th region: spread evenly, or random. */
 static box place_of(const subject *s, uint64_t *random, const double shift[BOX_DIMS], int k)
 {
     double at[BOX_DIMS];

@@ -35,7 +35,7 @@ extern const char *const check_names[];
 /* What the check with that index tests. */
 bool check_is_of_file(size_t check);
 
-/* Whether it tries to refute bounds, so that its comparisons count for the type's label. */
+/* Returns whether it tries to refute bounds, so that its comparisons count for the type's label. */
 bool check_is_of_bounds(size_t check);
 
 /* Runs it in a child process with that time limit in seconds, or in this one. *shared is from

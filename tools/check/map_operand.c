@@ -29,8 +29,8 @@ long double under_quadratic(const imp_model *g, const long double s[3], long dou
 
 /* --- The region ------------------------------------------------------------------------------- */
 
-/* An interval of [lo, hi] with its middle a multiple of 2^-12 and its half-width a power of two
- * from 2^-12 on, or a single such value; a single value also if no interval fits. */
+/* Computes an interval of [lo, hi] with its middle a multiple of 2^-12 and its half-width a power
+ * of two from 2^-12 on, or a single such value; a single value also if no interval fits. */
 static void draw_short_interval(uint64_t *random, imp_region *r, int j, double lo, double hi)
 {
     const double half = exp2(-(double)draw_index(random, 13));

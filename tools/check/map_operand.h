@@ -27,7 +27,8 @@ under under_draw(uint64_t *random, double t_lo, double t_hi);
 /* x, y, z, t at s, multiples of 2^-10 in [-1, 1]. Exact. */
 void under_value(const under *surface, const double s[3], double x[4]);
 
-/* The value of a quadratic's ten coefficients at s; *size: the sum of its terms' magnitudes. */
+/* Returns the value of a quadratic's ten coefficients at s; *size: the sum of its terms'
+ * magnitudes. */
 long double under_quadratic(const imp_model *g, const long double s[3], long double *size);
 
 #endif

@@ -8,7 +8,7 @@
 /* Models of points that move, and of their distances
  * ================================================== */
 
-/* The polynomial of a model at s. */
+/* Returns the polynomial of a model at s. */
 long double model_value(const imp_model *m, const double s[3]);
 
 /* A model of a coordinate that is x at s. Its reach is of any scale up to twice the size;
@@ -18,8 +18,8 @@ imp_model model_through(uint64_t *random, double x, double size, const double s[
 /* False, and the check fails, if the model of a distance has a NaN or is inverted. */
 bool distance_has_form(const subject *s, const imp_model *g);
 
-/* What a model claims of the distance at s: the least |g| that polynomial and range leave, INFINITY
- * if they leave none. */
+/* Returns what a model claims of the distance at s: the least |g| that polynomial and range leave,
+ * INFINITY if they leave none. */
 long double distance_claimed(const imp_model *g, const double s[3]);
 
 #endif

@@ -40,7 +40,7 @@ long double spot_apart_upper(const spot *at, const double x[3])
     return sqrtl(sum) * (1 + 16 * LDBL_EPSILON) + at->error;
 }
 
-/* The nearest to x of `count` points; *best is what was nearest before. */
+/* Keeps in *best the point nearest to x, of `count` points and what *best was before. */
 static void keep_nearest(const subject *s, const double x[3], size_t count, const double *p,
                          spot *best, long double *apart)
 {

@@ -9,7 +9,8 @@
 
 #define OPERAND_BLANKS " \t\n\r" /* as in a pipeline */
 
-/* Whether it is a path: has a slash or ends in .so. A type's name has no slash and does not. */
+/* Returns whether it is a path: has a slash or ends in .so. A type's name has no slash and does
+ * not. */
 bool operand_is_path(const char *operand);
 
 /* The file a type comes from. */

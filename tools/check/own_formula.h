@@ -33,11 +33,11 @@ void own_formula_free(own_formula *f);
  * variable's numbers. */
 long double own_end_slack(double size);
 
-/* Whether the range holds x, ends included; a little beyond them where the ends of the domain are
- * rounded, for a variable whose numbers are of that size. */
+/* Returns whether the range holds x, ends included; a little beyond them where the ends of the
+ * domain are rounded, for a variable whose numbers are of that size. */
 bool own_range_holds(const formula_range *range, double x, double size);
 
-/* The box of a part, in the domain of the subject. */
+/* Returns the box of a part, in the domain of the subject. */
 box own_part_box(const own_part *part, const subject *s);
 
 #endif

@@ -17,7 +17,7 @@
 static const long double ROUNDING = 16 * LDBL_EPSILON;
 static const long double tiny = 0x1p-1070L;
 
-/* A lower bound of the change of f from a to b. */
+/* Returns a lower bound of the change of f from a to b. */
 static long double change_lower(int i, const evaluated *a, const evaluated *b)
 {
     const long double apart = fabsl((long double)a->x[i] - b->x[i]);

@@ -14,12 +14,12 @@ typedef struct evaluated {
     double p[BOX_DIMS], x[3], error[3];
 } evaluated;
 
-/* A lower bound of (|f(p) - f(q)|) / (what the rates allow), 0 if the errors explain everything:
- * above 1 the rates, or the errors, are refuted. */
+/* Returns a lower bound of (|f(p) - f(q)|) / (what the rates allow), 0 if the errors explain
+ * everything: above 1 the rates, or the errors, are refuted. */
 double pair_ratio(int n, int coordinate, const double rate[BOX_DIMS], const evaluated *a,
                   const evaluated *b);
 
-/* A lower bound of the slope |f(p) - f(q)| / |p_j - q_j|. */
+/* Returns a lower bound of the slope |f(p) - f(q)| / |p_j - q_j|. */
 double pair_slope(int coordinate, int j, const evaluated *a, const evaluated *b);
 
 /* The worst pair so far, and the claim it was compared with. */

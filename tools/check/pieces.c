@@ -34,7 +34,7 @@ static bool take(visit *v, size_t k)
     return subject_eval_sane(&s, 1, first, x, error);
 }
 
-/* Whether piece k is what it was. */
+/* Returns whether piece k is what it was. */
 static bool is_kept(const visit *v, size_t k)
 {
     v->answer->tests += 1;

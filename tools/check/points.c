@@ -26,7 +26,8 @@ static bool is_sane_at(const subject *s, const double *p)
     return s->answer->verdict != CHECK_FAIL;
 }
 
-/* Each number at its lower end, one double above, in the middle, one below the upper end, there. */
+/* Returns a parameter at its lower end, one double above, in the middle, one below the upper end,
+ * there. */
 static double place(const box *d, int j, int which)
 {
     const double lo = d->lo[j], hi = d->hi[j];

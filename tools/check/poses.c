@@ -67,13 +67,14 @@ static bool judge_form(const subject *s, const imp_region *span, const imp_pose 
 
 /* --- Rotations -------------------------------------------------------------------------------- */
 
-/* The polynomial of an entry; sizes of its terms bound its rounding by 8 LDBL_EPSILON of them. */
+/* Returns the polynomial of an entry; sizes of its terms bound its rounding by 8 LDBL_EPSILON of
+ * them. */
 static long double value_at(const imp_model *m, long double at)
 {
     return m->a + at * (m->b[2] + at * m->q[IMP_TT]);
 }
 
-/* Whether the pose's direction may be one that the turn leaves as it is. */
+/* Returns whether the pose's direction may be one that the turn leaves as it is. */
 static bool judge_fixed(const subject *s, const imp_region *span, const imp_pose *pose, double t)
 {
     const long double d = span->d[2], at = d > 0 ? (t - (long double)span->c[2]) / d : 0;

@@ -32,7 +32,7 @@ typedef struct proof {
 
 /* --- The bounded functions -------------------------------------------------------------------- */
 
-/* The formula of the variables themselves. */
+/* Computes the formula of the variables themselves. */
 static void plain_jets(void *context, const jet p[], const jet s[], jet out[3])
 {
     const proof *now = context;
@@ -40,7 +40,7 @@ static void plain_jets(void *context, const jet p[], const jet s[], jet out[3])
     formula_jets(now->f, p, out);
 }
 
-/* The map on the surface below: u, v, t to x, y, z, t to the result. */
+/* Computes jets of a map on a surface: from u, v, t by x, y, z, t to the result. */
 static void mapped_jets(void *context, const jet p[], const jet s[], jet out[3])
 {
     const proof *now = context;

@@ -63,7 +63,7 @@ static bool same(const subject *s, const answers *a, const answers *b, const cha
     return differs == NULL || answer_fail_for(s->answer, FAULT_ANY, "%s differ %s", differs, when);
 }
 
-/* A call for each point. */
+/* Asks with a call for each point. */
 static void ask_singly(const subject *s, const questions *q, answers *a)
 {
     for (int k = 0; k < POINTS; ++k)

@@ -181,7 +181,7 @@ typedef struct hunt {
     double at[BOX_DIMS];      /* there */
 } hunt;
 
-/* The slope at p by a short step along j, compared with the claim. */
+/* Compares the slope at p, by a short step along j, with the claim. */
 static void probe(search *r, hunt *h, const double p[BOX_DIMS])
 {
     const int j = h->j;

@@ -39,7 +39,7 @@ static void solve(double matrix[TERMS][TERMS + 1], double x[TERMS])
     for (int k = 0; k < TERMS; ++k) x[k] = used[k] ? matrix[k][TERMS] / matrix[k][k] : 0;
 }
 
-/* What the values are off their best quadratic at most. */
+/* Returns what the values are off their best quadratic at most. */
 static double residual(const double term[POINTS][TERMS], const double x[3 * POINTS], int i)
 {
     double matrix[TERMS][TERMS + 1] = {{0}}, fit[TERMS], most = 0;

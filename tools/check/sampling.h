@@ -13,7 +13,7 @@
  * Everything is drawn from a seed, so that a result can be reproduced. Boxes: see
  * tools/proof/box.h. */
 
-/* A separate stream for each name. */
+/* Returns a separate stream for each name. */
 uint64_t draw_stream(uint64_t seed, const char *name, const char *other_name);
 
 size_t draw_index(uint64_t *random, size_t count); /* below count */
@@ -22,14 +22,16 @@ size_t draw_index(uint64_t *random, size_t count); /* below count */
  * few times 1/V points. `shift` begins the sequence elsewhere. */
 void draw_spread(const double shift[BOX_DIMS], uint64_t k, int n, double at[BOX_DIMS]);
 
-/* The box around a place of `all` (in [0,1] along each dimension), of that fraction of its widths,
- * cut off at its ends. */
+/* Returns the box around a place of `all` (in [0,1] along each dimension), of that fraction of its
+ * widths, cut off at its ends. */
 box draw_around(const box *all, int n, const double at[BOX_DIMS], double fraction);
 
-/* A part of `all` of any size and shape: whole, half, tiny, a single value, at either end. */
+/* Returns a part of `all` of any size and shape: whole, half, tiny, a single value, at either end.
+ * */
 box draw_box(uint64_t *random, const box *all, int n);
 
-/* A point of the box, often at an end, in the middle, or where remainders of quadratics peak. */
+/* Draws a point of the box, often at an end, in the middle, or where remainders of quadratics peak.
+ * */
 void draw_point(uint64_t *random, const box *from, int n, double *p);
 
 /* Another point of the box: anywhere, close by, or different in one number only. */
@@ -40,7 +42,7 @@ void draw_partner(uint64_t *random, const box *from, int n, const double *p, dou
 enum { SPECIAL_MAX = 256 };
 int special_values(double lo, double hi, double value[SPECIAL_MAX]);
 
-/* A number in [-1, 1], a multiple of 2^-10, often -1, 0 or 1. */
+/* Returns a number in [-1, 1], a multiple of 2^-10, often -1, 0 or 1. */
 double draw_normalized(uint64_t *random);
 
 #endif

@@ -180,7 +180,7 @@ static bool read_end(stated *s, const char *text, size_t length, ld_interval *en
     return true;
 }
 
-/* Where the text's first piece ends: at one of these characters, outside of parentheses. */
+/* Returns where the text's first piece ends: at one of these characters, outside of parentheses. */
 static size_t piece(const char *text, const char *ends)
 {
     size_t length = 0;

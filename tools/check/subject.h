@@ -35,7 +35,7 @@ typedef struct subject {
 bool subject_make(subject *s, const imp_instance *instance, const imp_instance *twin, size_t k,
                   check_answer *answer);
 
-/* The number of an instance's pieces; 0: it is one surface, or a map. */
+/* Returns the number of an instance's pieces; 0: it is one surface, or a map. */
 size_t subject_piece_count(const imp_instance *instance, check_answer *answer);
 
 /* From a stage, "sphere radius=2", and back. */
@@ -99,7 +99,7 @@ typedef struct subject_text {
 subject_text subject_point_text(int n, const double *p);
 subject_text subject_box_text(int n, const double *lo, const double *hi);
 
-/* The subject of the call recorded in an answer: "in eval at u=..., v=..., t=...". */
+/* Returns words for the call recorded in an answer: "in eval at u=..., v=..., t=...". */
 subject_text subject_call_text(const check_call *call);
 
 /* "domain", "unbounded", ... */

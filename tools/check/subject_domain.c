@@ -66,7 +66,8 @@ size_t subject_piece_count(const imp_instance *instance, check_answer *answer)
     return count;
 }
 
-/* The k-th piece of an instance, or itself. Pieces are only ever asked, which changes nothing. */
+/* Returns the k-th piece of an instance, or itself. Pieces are only ever asked, which changes
+ * nothing. */
 static const imp_instance *piece_of(const imp_instance *instance, size_t k, imp_instance *piece,
                                     check_answer *answer)
 {

@@ -30,7 +30,7 @@ subject_text subject_box_text(int n, const double *lo, const double *hi)
     return t;
 }
 
-/* The subject of a call: a stage, a point, or a region. */
+/* Returns words for what a call was about: a stage, a point, or a region. */
 static subject_text matter_text(const check_call *call)
 {
     subject_text t = {""};

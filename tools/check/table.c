@@ -222,9 +222,9 @@ static bool one_try(const trial *t)
     return true;
 }
 
-/* The least growth of the heap, in bytes, by that many repetitions: malloc caches up to some 200 kB
- * of free blocks, so that the heap may grow in many rounds without a leak; a leak grows it in each.
- * Negative: unknown. */
+/* Returns the least growth of the heap, in bytes, by that many repetitions: malloc caches up to
+ * some 200 kB of free blocks, so that the heap may grow in many rounds without a leak; a leak grows
+ * it in each. Negative: unknown. */
 static double growth_lower(const trial *t, life *live, int rounds)
 {
     double least = INFINITY;

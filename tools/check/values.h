@@ -8,14 +8,14 @@
 
 /* The parameters' values in a stage, "sphere radius=2", as the host reads them. */
 
-/* All of it: {"type": "sphere", "radius": 2}. NULL: it cannot be read, or no memory. */
+/* Returns all of it: {"type": "sphere", "radius": 2}. NULL: it cannot be read, or no memory. */
 json_t *stage_values(const imp_registry *registry, imp_type_kind kind, const char *stage);
 
-/* A parameter's value among them, or the table's default. NULL: absent, or no memory. */
+/* Returns a parameter's value among them, or the table's default. NULL: absent, or no memory. */
 json_t *stage_value(const json_t *values, const imp_parameter *row);
 
-/* The stage with the parameter's value, text, replaced or added. Free it. NULL: it cannot be read,
- * or no memory. */
+/* Returns the stage with the parameter's value, text, replaced or added. Free it. NULL: it cannot
+ * be read, or no memory. */
 char *stage_with(const imp_registry *registry, imp_type_kind kind, const char *stage,
                  const char *parameter, const char *value);
 

@@ -25,7 +25,7 @@ static char *option_again(const arguments *args, const char *name)
     return text;
 }
 
-/* The command line that repeats the run. Free it. NULL: no memory. */
+/* Returns the command line that repeats the run. Free it. NULL: no memory. */
 static char *command_line(const job *j)
 {
     static const char *const options[] = {"formula", "domain", "effort", "plugin-path"};

@@ -50,7 +50,8 @@ static exit_status refuse_shape(value_place at, shape_verdict verdict, vec where
     return EXIT_ANSWERED;
 }
 
-/* The inertia of the mass about its center, from that of uniform density (Steiner's theorem). */
+/* Returns the inertia of the mass about its center, from that of uniform density (Steiner's
+ * theorem). */
 static mat3 inertia_of(const actor *a, const mass_properties *found)
 {
     const vec d = vec_sub(a->center, found->center);

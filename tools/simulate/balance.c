@@ -15,7 +15,7 @@ typedef struct descent {
     vec *now, *ahead, *next, *slope; /* impulses, where the slope is taken, the next; the slope */
 } descent;
 
-/* The bodies after these impulses; answers their kinetic energy. */
+/* Computes the bodies after these impulses. Returns their kinetic energy. */
 static double apply(const descent *d, const vec *impulse)
 {
     double energy = 0;
@@ -43,7 +43,7 @@ static vec project(vec x, vec normal, double mu)
     return vec_along(vec_scale(height, normal), size > 0 ? mu * height / size : 0, across);
 }
 
-/* The velocities at all points: the slope of the energy. Answers the greatest. */
+/* Computes the velocities at all points: the slope of the energy. Returns the greatest. */
 static double find_slope(const descent *d)
 {
     double most = 0;
@@ -58,8 +58,8 @@ static double find_slope(const descent *d)
     return most;
 }
 
-/* One step of the length 1 / steepness from d->ahead to d->next; answers what the energy may be at
- * most if the step is not too long. */
+/* Takes one step of the length 1 / steepness from d->ahead to d->next. Returns what the energy may
+ * be at most if the step is not too long. */
 static double step(const descent *d, double energy, double steepness)
 {
     size_t n = 0;
@@ -75,7 +75,7 @@ static double step(const descent *d, double energy, double steepness)
     return bound;
 }
 
-/* Goes on to the next impulses and ahead of them; answers whether the way has turned uphill. */
+/* Goes on to the next impulses and ahead of them. Returns whether the way has turned uphill. */
 static bool advance(const descent *d, double momentum)
 {
     double climb = 0;

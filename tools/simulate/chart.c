@@ -11,7 +11,7 @@
 enum { SAMPLES = 5 };
 #define SAME 1e-9 /* part of the patch's size within which points are the same */
 
-/* The points of one end of a parameter, along the other. */
+/* Computes the points of one end of a parameter, along the other. */
 static imp_code read_end(const chart *c, int k, int end, vec x[SAMPLES], imp_error *why)
 {
     double p[SAMPLES][2];
@@ -130,8 +130,8 @@ static double difference(const chart *c, const spot *s, int k)
     return way > AT_END * width ? fmin(STEP * width, way / 2) : STEP * width;
 }
 
-/* Derivatives at the middle of nine points, then those at `d` from it of the quadratic through
- * them. */
+/* Computes derivatives at the middle of nine points, then those at `d` from it of the quadratic
+ * through them. */
 static void differentiate(const vec grid[9], const double h[2], const double d[2], jet *j)
 {
     const double a = h[0] > 0 ? 1 / h[0] : 0, b = h[1] > 0 ? 1 / h[1] : 0;

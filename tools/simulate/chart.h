@@ -31,7 +31,7 @@ typedef struct spot {
 
 imp_code chart_make(chart *c, const placed *at, imp_place place, imp_error *why);
 
-/* The spot at (u, v). */
+/* Returns the spot at (u, v). */
 spot chart_spot(const chart *c, const double p[2]);
 
 /* (u, v) of coordinates around a spot. Where they are outside of the domain, *p is on its rim. */

@@ -112,7 +112,7 @@ static double slope_of(const newton *n, const jet j[2])
     return most;
 }
 
-/* How much rounding changes points. */
+/* Returns how much rounding changes points. */
 static double rounding_of(const jet j[2])
 {
     return 0x1p-51 * (vec_length(j[0].x) + vec_length(j[1].x));
@@ -128,8 +128,8 @@ static void form_free(const closest *n, bool alone, newton *system)
     if (alone) system->free[0] = system->free[1] = false;
 }
 
-/* Whether a step led to a smaller distance, or, as far as rounding tells, to the same one at a
- * place where the surfaces are more normal to it. */
+/* Returns whether a step led to a smaller distance, or, as far as rounding tells, to the same one
+ * at a place where the surfaces are more normal to it. */
 static bool is_better(const closest *next, const closest *n, bool alone, double slope)
 {
     newton system;
@@ -207,7 +207,7 @@ imp_code closest_project(const chart *c, double p[2], vec x, vec *found, imp_err
 
 /* --- The normal ------------------------------------------------------------------------------- */
 
-/* The surface's normal, of unit length; 0 where it has none. */
+/* Returns the surface's normal, of unit length; 0 where it has none. */
 static vec surface_normal(const jet *j)
 {
     const vec n = vec_cross(j->by[0], j->by[1]);
@@ -215,7 +215,8 @@ static vec surface_normal(const jet *j)
     return vec_length(n) > 1e-6 * size ? vec_unit(n) : (vec){{0, 0, 0}};
 }
 
-/* The greatest curvature along the coordinates; infinite where the surface has no normal. */
+/* Returns the greatest curvature along the coordinates; infinite where the surface has no normal.
+ * */
 static double curvature(const jet *j, vec normal)
 {
     double most = 0;
@@ -228,7 +229,8 @@ static double curvature(const jet *j, vec normal)
     return most;
 }
 
-/* Whether the point is inside of its patch, where another patch cannot be nearer by an edge. */
+/* Returns whether the point is inside of its patch, where another patch cannot be nearer by an
+ * edge. */
 static bool is_inside(const closest *n, int k)
 {
     for (int i = 0; i < 2; ++i) {
@@ -239,7 +241,7 @@ static bool is_inside(const closest *n, int k)
     return true;
 }
 
-/* The length of the patch, about. */
+/* Returns the length of the patch, about. */
 static double patch_size(const closest *n, int k)
 {
     double size = 0;
@@ -262,7 +264,7 @@ vec closest_normal(const closest *n)
     return along;
 }
 
-/* The least curvature: of the second fundamental form with the first as metric. */
+/* Returns the least curvature: of the second fundamental form with the first as metric. */
 static double least_curvature(const jet *j, vec normal)
 {
     const double e = vec_dot(j->by[0], j->by[0]), f = vec_dot(j->by[0], j->by[1]);

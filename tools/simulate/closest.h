@@ -29,8 +29,8 @@ double closest_gap(const closest *n);
  * at edges and corners, too. */
 vec closest_normal(const closest *n);
 
-/* Whether the patch of side k bends away from the plane of contact in all directions: by more than
- * `sag` within a sixteenth of its size. Then it touches at a single point. */
+/* Returns whether the patch of side k bends away from the plane of contact in all directions: by
+ * more than `sag` within a sixteenth of its size. Then it touches at a single point. */
 bool closest_is_round(const closest *n, int k, double sag);
 
 /* The point of one patch that is nearest to x, from (u, v) on, which it changes. */

@@ -21,7 +21,7 @@ static slide slide_along(const mat3 *k, vec free, double mu, double angle)
     return s;
 }
 
-/* Whether the slide at the angle opposes its friction. */
+/* Returns whether the slide at the angle opposes its friction. */
 static bool is_opposed(const slide *s, double angle)
 {
     return s->normal > 0 && s->velocity.x[1] * cos(angle) + s->velocity.x[2] * sin(angle) <= 0;
@@ -45,8 +45,9 @@ static double find_zero(const mat3 *k, vec free, double mu, double a, double b)
     return b;
 }
 
-/* The impulse of a point that slides: there the velocity across its direction is 0. Looked for
- * around an angle that is likely, farther and farther away. Without one friction is left out. */
+/* Returns the impulse of a point that slides: there the velocity across its direction is 0. Looked
+ * for around an angle that is likely, farther and farther away. Without one friction is left out.
+ * */
 static vec sliding_impulse(const mat3 *k, vec free, double mu, double likely)
 {
     double angle[2] = {likely, likely}; /* the ends of what was looked at */

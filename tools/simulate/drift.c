@@ -6,8 +6,8 @@
 
 #include <string.h>
 
-/* The velocity of three points (u, v), by central differences over some 1e-5 of the time asked
- * about, within the times that exist. */
+/* Computes the velocity of three points (u, v), by central differences over some 1e-5 of the time
+ * asked about, within the times that exist. */
 static imp_code velocities(const setup *s, const placed *at, imp_place place, double t,
                            const double (*uv)[2], vec velocity[3], imp_error *why)
 {

@@ -49,7 +49,7 @@ static void event_free(event *e)
     free(e->state);
 }
 
-/* The number of a body in the instant, which it joins. */
+/* Returns the number of a body in the instant, which it joins. */
 static size_t join(simulation *s, event *e, size_t body, double t)
 {
     instant *now = &e->now;
@@ -103,8 +103,8 @@ static void add_contact(simulation *s, event *e, const gathered *g, const gather
 
 static json_t *vector_json(vec v) { return json_pack("[f,f,f]", v.x[0], v.x[1], v.x[2]); }
 
-/* The sum of a contact's impulses, and the mean of its points with their normal parts as weights.
- */
+/* Returns the sum of a contact's impulses, and the mean of its points with their normal parts as
+ * weights. */
 static vec impulse_of(const impact_contact *c, vec *point)
 {
     vec sum = {{0, 0, 0}}, moment = {{0, 0, 0}};

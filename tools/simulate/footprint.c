@@ -30,7 +30,7 @@ vec plane_outward(const contact_plane *plane, point2 x)
 
 /* --- Which patches ---------------------------------------------------------------------------- */
 
-/* The least and greatest of n.x over a box. */
+/* Computes the least and greatest of n.x over a box. */
 static void range_along(const vec_box *box, vec n, double *lo, double *hi)
 {
     *lo = *hi = 0;
@@ -102,7 +102,7 @@ static void keep(sampler *s, vec x)
     s->found[s->count++] = plane_inward(s->plane, x);
 }
 
-/* Whether all points of the grid are in one plane. */
+/* Returns whether all points of the grid are in one plane. */
 static bool is_flat(const sampler *s)
 {
     const int n = (s->cells + 1) * (s->cells + 1);
@@ -121,8 +121,8 @@ static bool is_flat(const sampler *s)
     return true;
 }
 
-/* The point farthest towards the plane near number j of a row of parameter k, at number i of the
- * other one, by golden section. */
+/* Computes the point farthest towards the plane near number j of a row of parameter k, at number i
+ * of the other one, by golden section. */
 static imp_code refine(const sampler *s, int k, double i, int j, vec *best)
 {
     const double ratio = 0.6180339887498949;
@@ -149,8 +149,8 @@ static imp_code refine(const sampler *s, int k, double i, int j, vec *best)
     return IMP_SUCCESS;
 }
 
-/* The number of the highest point of row i along parameter k. Of a closed row, whose ends are one
- * point, the end that goes on higher. */
+/* Returns the number of the highest point of row i along parameter k. Of a closed row, whose ends
+ * are one point, the end that goes on higher. */
 static int highest(const sampler *s, int k, int i)
 {
     double height[ROW_MAX];

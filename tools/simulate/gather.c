@@ -65,8 +65,8 @@ static exit_status add(gathered *g, size_t index, int level, const touching *at)
     return EXIT_ANSWERED;
 }
 
-/* Whether a contact is at another place than those of the same meeting from `first` on: with
- * another normal, since one plane has all its contacts in one manifold. */
+/* Returns whether a contact is at another place than those of the same meeting from `first` on:
+ * with another normal, since one plane has all its contacts in one manifold. */
 static bool is_other(const gathered *g, size_t first, const touching *at)
 {
     for (size_t i = first; i < g->count; ++i)
@@ -119,7 +119,7 @@ static exit_status add_touching(simulation *s, gathered *g, size_t index)
 
 /* --- All -------------------------------------------------------------------------------------- */
 
-/* Whether a body that moves is in both meetings. */
+/* Returns whether a body that moves is in both meetings. */
 static bool share_mover(const simulation *s, const meeting *a, const meeting *b)
 {
     for (int k = 0; k < 2; ++k)

@@ -28,7 +28,7 @@ double gather_limit(const simulation *s, double t);
 exit_status gather_all(simulation *s, double t, gathered *g);
 void gather_free(gathered *g);
 
-/* Whether a meeting has a contact in it. */
+/* Returns whether a meeting has a contact in it. */
 bool gather_has(const gathered *g, size_t index);
 
 #endif

@@ -94,7 +94,7 @@ static void begin_point(const impact_body *bodies, impact_contact *c, size_t poi
     if (mat3_greatest(&k) > 0) s->inverse = mat3_inverse(&s->k);
 }
 
-/* Gives one point the impulse it takes beside those of all others. Answers how much that changed
+/* Gives one point the impulse it takes beside those of all others. Returns how much that changed
  * its velocity, at most. */
 static double step_point(impact_body *bodies, impact_contact *c, size_t i, bool friction)
 {
@@ -119,13 +119,13 @@ static double step_point(impact_body *bodies, impact_contact *c, size_t i, bool 
 #define SOLVED_SLACK 1e-7 /* up to here what the last sweep allowed left is a solution */
 enum { SWEEPS_MAX = 2000 };
 
-/* Whether one of the two yields: else impulses change nothing. */
+/* Returns whether one of the two yields: else impulses change nothing. */
 static bool is_open(const impact_body *bodies, const impact_contact *c)
 {
     return bodies[c->body[0]].yields || bodies[c->body[1]].yields;
 }
 
-/* Answers the scale of velocities, for rounding. */
+/* Returns the scale of velocities, for rounding. */
 static double begin(const impact_body *bodies, impact_contact *contacts, size_t count)
 {
     double scale = 0;
@@ -146,7 +146,7 @@ static double sweep(impact_body *bodies, impact_contact *c, bool friction)
     return most;
 }
 
-/* Sum of J.(u- + u+) / 2. */
+/* Returns the sum of J.(u- + u+) / 2. */
 static double gain_of(const impact_body *bodies, const impact_contact *contacts, size_t count)
 {
     double sum = 0;

@@ -60,10 +60,10 @@ typedef struct impact_contact {
     impact_point point[CONTACT_POINTS];
 } impact_contact;
 
-/* The velocity of the second body against the first at a point. */
+/* Returns the velocity of the second body against the first at a point. */
 vec impact_velocity(const impact_body *bodies, const impact_contact *c, size_t point);
 
-/* How fast a contact closes at its fastest point; negative: it opens. */
+/* Returns how fast a contact closes at its fastest point; negative: it opens. */
 double impact_closing(const impact_body *bodies, const impact_contact *c);
 
 /* The kinetic energy of a body that yields, else 0. */

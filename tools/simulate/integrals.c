@@ -8,9 +8,9 @@
 
 enum { LEVELS = 5 };
 
-/* The tetrahedron of a triangle and the origin: sums over its corners a, b, c and 0. Over one of
- * volume V the mean of x_i is s_i / 4 and that of x_i x_j is (s_i s_j + sum_corners x_i x_j) / 20.
- */
+/* Computes the tetrahedron of a triangle and the origin: sums over its corners a, b, c and 0. Over
+ * one of volume V the mean of x_i is s_i / 4 and that of x_i x_j is (s_i s_j + sum_corners x_i x_j)
+ * / 20. */
 static void add_triangle(vec a, vec b, vec c, double *sum)
 {
     const vec normal = vec_cross(vec_sub(b, a), vec_sub(c, a)), s = vec_add(a, vec_add(b, c));
@@ -68,7 +68,7 @@ static void extrapolate(levels *l, int count, integrals *out)
     }
 }
 
-/* How many steps, each twice as long, divide the cells. */
+/* Returns how many steps, each twice as long, divide the cells. */
 static int levels_of(int cells)
 {
     int count = 1;

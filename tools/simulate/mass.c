@@ -41,8 +41,8 @@ static void properties_of(const double *sum, vec origin, mass_properties *out)
     out->center = vec_add(origin, c);
 }
 
-/* Whether the volume is one: closed surfaces have no vector area I(n), and I(x n_x), I(y n_y) and
- * I(z n_z) are each the volume. */
+/* Returns whether the volume is one: closed surfaces have no vector area I(n), and I(x n_x), I(y
+ * n_y) and I(z n_z) are each the volume. */
 static bool is_volume(const double *sum, double size)
 {
     const double slack = 1e-3, volume = sum[VOLUME];
@@ -67,7 +67,7 @@ static double error_of(const double *sum, const double *change, double size)
     return most;
 }
 
-/* The integrals of all shells, each with its sign and its volume positive. */
+/* Adds up the integrals of all shells, each with its sign and its volume positive. */
 static shape_verdict add_shells(const patches *p, const double *sign, const integrals *each,
                                 size_t count, mass_properties *out)
 {

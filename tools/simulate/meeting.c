@@ -10,9 +10,9 @@
 
 /* --- The scene of two bodies ------------------------------------------------------------------ */
 
-/* A copy of the body under its path. NULL: no memory. Bodies that begin outside of each other stay
- * so, as they never come nearer than gamma_clear: only the `first` scene of a meeting has solid
- * ones. */
+/* Returns a copy of the body under its path. NULL: no memory. Bodies that begin outside of each
+ * other stay so, as they never come nearer than gamma_clear: only the `first` scene of a meeting
+ * has solid ones. */
 static json_t *body_json(const searching *s, size_t body, bool first)
 {
     const actor *a = &s->setup->actors[body];
@@ -154,7 +154,7 @@ imp_code meeting_level(searching *s, const meeting *m, double t, int least, int 
 /* Each window in time is this much longer than the one before. */
 #define WINDOW_GROWTH 8
 
-/* The search at one level over one window. */
+/* Searches at one level over one window. */
 static imp_code find_at(searching *s, meeting *m, double t, int level, double window)
 {
     const step at = step_of(s, level);

@@ -19,7 +19,7 @@ static bool keys_add(mover_keys *k, mover_key key)
     return true;
 }
 
-/* The last key at t or before. */
+/* Returns the last key at t or before. */
 static const mover_key *key_before(const mover_keys *k, double t)
 {
     size_t lo = 0, hi = k->count;
@@ -42,7 +42,7 @@ static vec spin_of(const mover *m, quat rotation, vec momentum)
     return mat3_apply(&axes, inner);
 }
 
-/* One step of the classical Runge-Kutta method for dq/dt = (0, spin(q)) q / 2. */
+/* Returns one step of the classical Runge-Kutta method for dq/dt = (0, spin(q)) q / 2. */
 static quat runge_kutta(const mover *m, quat q, vec momentum, double h)
 {
     quat at = q, sum = {0, {{0, 0, 0}}};
@@ -58,7 +58,7 @@ static quat runge_kutta(const mover *m, quat q, vec momentum, double h)
     return quat_unit((quat){q.w + h / 6 * sum.w, vec_along(q.v, h / 6, sum.v)});
 }
 
-/* The rotation vector that leads from p to q, at most half a turn. */
+/* Returns the rotation vector that leads from p to q, at most half a turn. */
 static vec turn_between(quat p, quat q)
 {
     const quat back = {p.w, vec_scale(-1, p.v)};
@@ -74,8 +74,8 @@ static vec turn_between(quat p, quat q)
 #define SUBSTEP_PARTS 8
 #define PRINCIPAL_SLACK 1e-9
 
-/* How long a sub-step may be; at most `span`. The spin changes at most by |spin|^2 a unit of
- * time. */
+/* Returns how long a sub-step may be; at most `span`. The spin changes at most by |spin|^2 a unit
+ * of time. */
 static double substep(const mover *m, vec momentum, quat rotation, double span)
 {
     const vec spin = spin_of(m, rotation, momentum);
@@ -108,7 +108,7 @@ static bool add_substep(mover *m, mover_key *at, vec momentum, double to)
     return true;
 }
 
-/* The centre's flight along its parabola, up to a time. */
+/* Moves the centre along its parabola up to a time. */
 static void fly(mover_key *at, double to)
 {
     const double h = to - at->t;

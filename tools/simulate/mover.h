@@ -50,7 +50,7 @@ typedef struct mover {
     double substep_error; /* radians, so far */
 } mover;
 
-/* At the start. Only actors that move have a mover. Answers false when memory runs out, as all
+/* At the start. Only actors that move have a mover. Returns false when memory runs out, as all
  * here. */
 bool mover_begin(mover *m, const actor *a, vec gravity, double start, double end);
 void mover_free(mover *m);
@@ -66,9 +66,10 @@ mover_state mover_at(const mover *m, double t);
 /* Ends the path at t and begins another with that state. */
 bool mover_turn(mover *m, double t, const mover_state *state, vec acceleration, double end);
 
-/* Where the body's surfaces stand: world = position + R (x - center of the start). */
+/* Returns the rotation R of the body: its surfaces stand at world = position + R (x - center of the
+ * start). */
 mat3 mover_axes(const mover_state *s);
-/* The inverse of the inertia in the world's axes. */
+/* Returns the inverse of the inertia in the world's axes. */
 mat3 mover_inverse_inertia(const mover *m, const mover_state *s);
 
 /* Sets the spin that belongs to the momentum. */
@@ -76,7 +77,7 @@ void mover_spin_update(const mover *m, mover_state *s);
 
 double mover_kinetic_energy(const mover *m, const mover_state *s);
 
-/* The whole motion up to t, as a map. NULL: no memory. */
+/* Returns the whole motion up to t, as a map. NULL: no memory. */
 json_t *mover_trajectory(const mover *m, double t);
 
 #endif

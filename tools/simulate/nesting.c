@@ -37,7 +37,7 @@ static shape_verdict read_extents(const patches *p, const shells *s, shell_exten
     return SHAPE_FOUND;
 }
 
-/* The solid angle at the origin of a triangle, by Van Oosterom and Strackee. */
+/* Returns the solid angle at the origin of a triangle, by Van Oosterom and Strackee. */
 static double solid_angle(vec a, vec b, vec c)
 {
     const double x = vec_length(a), y = vec_length(b), z = vec_length(c);
@@ -45,7 +45,7 @@ static double solid_angle(vec a, vec b, vec c)
     return 2 * atan2(vec_dot(a, vec_cross(b, c)), spread);
 }
 
-/* How often a shell winds around a point. */
+/* Finds how often a shell winds around a point. */
 static shape_verdict wind(const patches *p, const shells *s, size_t shell, vec x, double *winding,
                           imp_error *why)
 {

@@ -18,7 +18,7 @@ typedef struct outline_patch {
     vec_box box;
 } outline_patch;
 
-/* Whether this is the patch of a place of its body. */
+/* Returns whether this is the patch of a place of its body. */
 static inline bool outline_is_at(const outline_patch *p, imp_place place)
 {
     return p->place.surface == place.surface && p->place.piece == place.piece;

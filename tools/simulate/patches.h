@@ -54,8 +54,8 @@ enum { PATCH_POINTS_MAX = 129 };
 shape_verdict patch_line(const patches *p, size_t index, const double from[2], const double to[2],
                          int n, vec *x, imp_error *why);
 
-/* The points of a grid over a patch, (cells + 1)^2, those along v next to each other; `cells` is
- * below PATCH_POINTS_MAX. */
+/* Returns the points of a grid over a patch, (cells + 1)^2, those along v next to each other;
+ * `cells` is below PATCH_POINTS_MAX. */
 shape_verdict patch_grid(const patches *p, size_t index, int cells, vec *at, imp_error *why);
 
 #endif

@@ -62,7 +62,7 @@ static void remove_corner(polygon *p, size_t i)
 
 static double distance(point2 a, point2 b) { return hypot(a.x[0] - b.x[0], a.x[1] - b.x[1]); }
 
-/* How far b is from the segment between a and c. */
+/* Returns how far b is from the segment between a and c. */
 static double off_segment(point2 a, point2 b, point2 c)
 {
     const double dx = c.x[0] - a.x[0], dy = c.x[1] - a.x[1], square = dx * dx + dy * dy;
@@ -113,7 +113,7 @@ polygon polygon_grow(const polygon *p, double by)
 
 /* --- Intersection ----------------------------------------------------------------------------- */
 
-/* The part of a polygon to the left of the line from a to b (Sutherland and Hodgman). */
+/* Returns the part of a polygon to the left of the line from a to b (Sutherland and Hodgman). */
 static polygon clip(const polygon *p, point2 a, point2 b)
 {
     polygon left = {.count = 0};

@@ -19,14 +19,14 @@ typedef struct polygon {
     point2 at[POLYGON_MAX];
 } polygon;
 
-/* The convex hull of n points, which it sorts; of a hull with more corners than there is room for,
- * the largest part. */
+/* Returns the convex hull of n points, which it sorts; of a hull with more corners than there is
+ * room for, the largest part. */
 polygon polygon_hull(point2 *points, size_t n);
 
-/* The sum of a polygon and a square of half the width `by` about the origin. */
+/* Returns the sum of a polygon and a square of half the width `by` about the origin. */
 polygon polygon_grow(const polygon *p, double by);
 
-/* What two polygons with an area have in common. */
+/* Returns what two polygons with an area have in common. */
 polygon polygon_intersect(const polygon *a, const polygon *b);
 
 /* Removes corners that are no farther than that from another corner, or from the segment between

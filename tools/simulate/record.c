@@ -12,7 +12,7 @@
 
 /* --- The scene -------------------------------------------------------------------------------- */
 
-/* What the maps say now goes; what the bodies are stays. */
+/* Replaces the maps of a body; its other keys stay. */
 static int record_body(const simulation *s, size_t i, json_t *body)
 {
     if (!s->setup->actors[i].moves) return 0;
@@ -66,7 +66,7 @@ exit_status record_write(const simulation *s, const char *path)
 
 /* --- Energy and momentum ---------------------------------------------------------------------- */
 
-/* What neither events nor gravity explain. */
+/* Returns the change of energy that neither events nor gravity explain. */
 static double energy_drift(const simulation *s)
 {
     return s->end.energy - (s->start.energy - s->energy_lost);

@@ -7,13 +7,15 @@
 
 /* What a simulation leaves. */
 
-/* The scene whose maps reproduce the motion, with its events, written whole or not at all. */
+/* Writes the scene whose maps reproduce the motion, with its events, written whole or not at all.
+ * */
 exit_status record_write(const simulation *s, const char *path);
 
 /* Where it ended, energy and momentum, for people. */
 void record_print(const simulation *s, const char *path);
 
-/* What record_print tells, as tools/schema/simulate.schema.json says. NULL: no memory. */
+/* Returns what record_print prints, as tools/schema/simulate.schema.json describes it. NULL: no
+ * memory. */
 json_t *record_json(const simulation *s, const char *path);
 
 #endif

@@ -32,8 +32,8 @@ static bool may_change(const instant *now, const impact_contact *c)
     return now->bodies[c->body[0]].yields || now->bodies[c->body[1]].yields;
 }
 
-/* The contact that closes fastest, and faster than `slow`, of impacts or of all; SIZE_MAX: none
- * does. */
+/* Returns the contact that closes fastest, and faster than `slow`, of impacts or of all; SIZE_MAX:
+ * none does. */
 static size_t fastest(const instant *now, double slow, bool of_all)
 {
     size_t found = SIZE_MAX;
@@ -99,8 +99,8 @@ static void set_targets(instant *now)
     }
 }
 
-/* All contacts together. Without friction if there is no solution with it, or if it gains energy
- * where none may be gained. */
+/* Solves for all contacts together; without friction if there is no solution with it, or if it
+ * gains energy where none may be gained. */
 static void solve_all(instant *now, impact_body *bodies, bool may_gain)
 {
     double gain;
@@ -112,7 +112,7 @@ static void solve_all(instant *now, impact_body *bodies, bool may_gain)
     impact_solve(bodies, now->contacts, now->count, false, &gain);
 }
 
-/* Whether a contact closes by more than rounding. */
+/* Returns whether a contact closes by more than rounding. */
 static bool closes(const instant *now)
 {
     for (size_t i = 0; i < now->count; ++i) {
@@ -188,7 +188,7 @@ static void stop(instant *now)
 
 /* --- Hops ------------------------------------------------------------------------------------- */
 
-/* Whether fixed things may take momentum from bodies without doing work. */
+/* Returns whether fixed things may take momentum from bodies without doing work. */
 static bool has_support(const instant *now)
 {
     bool fixed = false;
@@ -213,7 +213,7 @@ static void slow_down(instant *now, double factor)
     }
 }
 
-/* Whether there is nothing to do after the impacts. */
+/* Returns whether there is nothing to do after the impacts. */
 static bool is_settled(const instant *now)
 {
     for (size_t i = 0; i < now->count; ++i)

@@ -73,7 +73,7 @@ typedef struct instant {
 /* Gives impulses to the bodies, and says which rest. */
 void response_resolve(instant *now);
 
-/* The kinetic energy of all bodies at the instant. */
+/* Returns the kinetic energy of all bodies at the instant. */
 double response_energy(const instant *now);
 
 #endif

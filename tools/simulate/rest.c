@@ -48,7 +48,7 @@ static bool counts(const instant *now, const impact_contact *c)
     return true;
 }
 
-/* Takes out those that no row of contacts joins to something fixed, and answers whether there were
+/* Takes out those that no row of contacts joins to something fixed, and returns whether there were
  * any. */
 static bool drop_floating(instant *now)
 {
@@ -81,7 +81,7 @@ vec rest_pull(const instant *now)
 }
 
 /* Lets gravity pull at those that may rest, for as long as gives V to what falls. Takes out what
- * moves then, and answers whether there was any. */
+ * moves then, and returns whether there was any. */
 static bool drop_falling(instant *now)
 {
     const vec pull = rest_pull(now);

@@ -22,10 +22,10 @@
  * now->spare[2] and now->kept. */
 void rest_find(instant *now, const impact_body *settled);
 
-/* The velocity V along gravity, that it gives what falls freely; 0 without gravity. */
+/* Returns the velocity V along gravity, that it gives what falls freely; 0 without gravity. */
 vec rest_pull(const instant *now);
 
-/* The speed of a body at its fastest point of contact, or of its centre. */
+/* Returns the speed of a body at its fastest point of contact, or of its centre. */
 double rest_speed(const instant *now, const impact_body *bodies, size_t body);
 
 #endif

@@ -9,7 +9,7 @@
 
 /* Matrices, and rotations as unit quaternions, for rigid bodies. */
 
-/* A unit vector normal to another one. */
+/* Returns a unit vector normal to another one. */
 static inline vec vec_normal_to(vec n)
 {
     int least = 0;
@@ -71,7 +71,7 @@ static inline double mat3_determinant(const mat3 *a)
     return vec_dot(x, vec_cross(y, z));
 }
 
-/* The greatest magnitude of its numbers. */
+/* Returns the greatest magnitude of its numbers. */
 static inline double mat3_greatest(const mat3 *a)
 {
     double most = 0;

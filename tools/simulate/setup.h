@@ -44,7 +44,7 @@ typedef struct setup {
 exit_status setup_read(setup *s, const arguments *args);
 void setup_free(setup *s);
 
-/* The body of that name, or SIZE_MAX. */
+/* Returns the body of that name, or SIZE_MAX. */
 size_t setup_find(const setup *s, const char *name);
 
 #endif

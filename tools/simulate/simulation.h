@@ -42,7 +42,7 @@ typedef struct simulation {
 exit_status simulation_run(simulation *s, const setup *what, const arguments *args);
 void simulation_free(simulation *s);
 
-/* The greatest error of sub-steps, radians. */
+/* Returns the greatest error of sub-steps, radians. */
 double simulation_substep_error(const simulation *s);
 
 #endif

@@ -13,7 +13,7 @@ typedef struct solution {
     bool solved;
 } solution;
 
-/* The contact as one of the first two bodies, with Newton's targets. */
+/* Returns the contact as one of bodies 0 and 1, with Newton's targets. */
 static impact_contact pair_of(const impact_body *bodies, const impact_contact *c,
                               double restitution)
 {
@@ -35,7 +35,7 @@ static solution solve_rough(const impact_body *bodies, const impact_contact *c, 
     return s;
 }
 
-/* Sum of J.(u- + u+) / 2. */
+/* Returns the sum of J.(u- + u+) / 2. */
 static double gain_of(const impact_body *bodies, const impact_contact *c, const solution *s)
 {
     double sum = 0;
@@ -78,8 +78,8 @@ static solution mix(const solution *p, const solution *n, double s)
     return m;
 }
 
-/* The greatest s <= 1 at which the mix of P and N gains no more than `most`, by bisection: the gain
- * is convex in s, and not above `most` at 0. */
+/* Returns the greatest s <= 1 at which the mix of P and N gains no more than `most`, by bisection:
+ * the gain is convex in s, and not above `most` at 0. */
 static solution mix_below(const impact_body *bodies, const impact_contact *c, const solution *p,
                           const solution *n, double most)
 {

@@ -51,7 +51,7 @@ static imp_code start_on(const chart *c, vec x, double p[2], imp_error *why)
     return IMP_SUCCESS;
 }
 
-/* The patch of the witness, and others of the body that come as near to x as `distance`. */
+/* Finds the patch of the witness, and others of the body that come as near to x as `distance`. */
 static imp_code look_around(const placed *at, const outline *o, imp_place own, const double p[2],
                             vec x, double distance, around *out, imp_error *why)
 {
@@ -104,7 +104,7 @@ static imp_code find_nearest(const touch_pair *pair, const witness *from, closes
 /* So much of the slack, to all sides, points and segments are taken for polygons. */
 #define THICKNESS 0.0025
 
-/* What each pair of parts has in common. */
+/* Returns the common part of each pair of parts. */
 static point2 *intersect(const footprint *a, const footprint *b, double thick, size_t *count)
 {
     *count = 0;

@@ -45,7 +45,7 @@ static bool read_numbers(const json_t *value, size_t count, double *to)
     return true;
 }
 
-/* Whether no number is beyond VALUE_MAX. */
+/* Returns whether no number is beyond VALUE_MAX. */
 static bool are_moderate(const double *x, size_t count)
 {
     for (size_t i = 0; i < count; ++i)
@@ -84,7 +84,7 @@ exit_status value_positive(value_place at, const json_t *object, double *to)
     return value_refuse(at, "got %s, must be a number greater than 0", text_of(value).at);
 }
 
-/* Whether all leading minors are positive by more than rounding. */
+/* Returns whether all leading minors are positive by more than rounding. */
 static bool is_definite(const mat3 *a)
 {
     const double size = mat3_greatest(a), slack = 1e-12;

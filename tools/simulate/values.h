@@ -22,7 +22,7 @@ typedef struct value_place {
     const char *key;
 } value_place;
 
-/* Complains "scene.json: /bodies/2/mass: ..." and answers EXIT_DATA. */
+/* Complains "scene.json: /bodies/2/mass: ..." and returns EXIT_DATA. */
 exit_status value_refuse(value_place at, const char *format, ...)
     __attribute__((format(printf, 2, 3)));
 
@@ -31,14 +31,14 @@ exit_status value_refuse(value_place at, const char *format, ...)
 /* Three numbers of at most VALUE_MAX each. */
 exit_status value_vector(value_place at, const json_t *object, vec *to);
 
-/* A number from `lo` to `hi`. */
+/* Reads a number from `lo` to `hi`. */
 exit_status value_number(value_place at, const json_t *object, double lo, double hi, double *to);
 
-/* A number greater than 0: from 1 / VALUE_MAX to VALUE_MAX. */
+/* Reads a number greater than 0: from 1 / VALUE_MAX to VALUE_MAX. */
 exit_status value_positive(value_place at, const json_t *object, double *to);
 
-/* An inertia tensor: symmetric to rounding, positive definite, and no thinner than rounding allows.
- */
+/* Reads an inertia tensor: symmetric to rounding, positive definite, and no thinner than rounding
+ * allows. */
 exit_status value_inertia(value_place at, const json_t *object, mat3 *to);
 
 #endif

@@ -19,7 +19,8 @@ typedef struct number_text {
     char text[32];
 } number_text;
 
-/* The fewest digits that read back exactly: a claim that is rounded would be another one. */
+/* Returns the fewest digits that read back exactly: a claim that is rounded would be another one.
+ * */
 static number_text exact(double x)
 {
     number_text to;

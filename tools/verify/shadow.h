@@ -29,7 +29,7 @@ typedef struct kept {
  * may overwrite it. `memory`: KEPT entries. */
 const kept *kept_look(kept *memory, const place *of, const box3 *where);
 
-/* The middle of an interval, within it. */
+/* Returns the middle of an interval, within it. */
 static inline double middle(double lo, double hi)
 {
     const double mid = 0.5 * lo + 0.5 * hi;
