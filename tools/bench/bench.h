@@ -147,7 +147,7 @@ typedef enum bench_goal {
 } bench_goal;
 bench_goal bench_goal_of(const bench_result *result, size_t row);
 
-/* The pairs at which a method ends, for one scene; 0: none. */
+/* Returns the pairs at which a method ends, for one scene; 0: none. */
 uint64_t bench_budget(const bench_method *m, const bench_request *request);
 
 /* One number that a set is about, drawn from its results. */
@@ -176,7 +176,7 @@ const bench_set *bench_set_find(const char *name);
 extern const bench_set bench_conformal, bench_parameters, bench_everyday, bench_bodies,
     bench_surfaces, bench_batch, bench_certificates_set;
 
-/* Whether the request measures any method of the set. */
+/* Returns whether the request measures any method of the set. */
 bool bench_set_is_measured(const bench_set *set, const bench_request *request);
 
 /* Says what the set needs that is not here, or NULL. */
@@ -210,7 +210,7 @@ imp_code bench_measure_certificates(imp_registry *registry, const bench_case *c,
                                     const bench_request *request, bench_tally *tally,
                                     imp_error *error);
 
-/* The verifier's time over that of the search that kept the proof, in the mean. */
+/* Returns the verifier's time over that of the search that kept the proof, in the mean. */
 double bench_verify_over_solve(const bench_tally *tally);
 
 /* Makes a scene of a case; NULL: *error says why. The caller frees it. */

@@ -48,7 +48,8 @@ static const char *const placing_maps[PLACINGS] = {
     "{\"type\":\"rotate\",\"axis\":[1,-2,0.5],\"rate\":6},{\"type\":\"translate\",\"velocity\":[3,"
     "1,-2]}"};
 
-/* The rest of a body: its own maps, then those of the placing, or those of the part that rests. */
+/* Returns the rest of a body: its own maps, then those of the placing, or those of the part that
+ * rests. */
 static char *moves(const char *own, const char *other, int placing)
 {
     const char *maps = placing_maps[placing], *comma = *own != 0 && *maps != 0 ? "," : "";
@@ -57,7 +58,7 @@ static char *moves(const char *own, const char *other, int placing)
     return bench_text("\"maps\":[%s%s%s]", own, comma, maps);
 }
 
-/* The text with what stands behind each # less by c; NULL: no memory. */
+/* Returns the text with what stands behind each # less by c; NULL: no memory. */
 static char *less_by(const char *text, double c)
 {
     char *made = bench_text("%.*s", (int)strcspn(text, "#"), text), *end;

@@ -6,13 +6,13 @@
 #include <stddef.h>
 #include <stdint.h>
 
-/* A scene file's text, on one line: `count` bodies, half of them deforming, that begin apart from
- * each other, one in each cell of a cube, and drift in all directions. The same for a seed on every
- * machine. NULL: no memory. The caller frees it. */
+/* Returns a scene file's text, on one line: `count` bodies, half of them deforming, that begin
+ * apart from each other, one in each cell of a cube, and drift in all directions. The same for a
+ * seed on every machine. NULL: no memory. The caller frees it. */
 char *crowd_text(size_t count, uint64_t seed);
 
-/* A scene file's text: two meshes, tori of 2 * rows * columns triangles each, that turn, and drift
- * into each other. NULL: no memory. The caller frees it. */
+/* Returns a scene file's text: two meshes, tori of 2 * rows * columns triangles each, that turn,
+ * and drift into each other. NULL: no memory. The caller frees it. */
 char *crowd_two_meshes(size_t rows, size_t columns);
 
 #endif

@@ -37,7 +37,7 @@ static void write_patch(FILE *out, uint64_t *state, const double n[3], double si
     fputs("]}]}", out);
 }
 
-/* The next scene of the sequence; NULL: no memory. */
+/* Returns the next scene of the sequence; NULL: no memory. */
 static char *draw(uint64_t *state)
 {
     char *text = NULL;

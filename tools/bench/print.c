@@ -46,7 +46,7 @@ static cell cell_bytes(double bytes)
     return cell_unit(bytes / 1024, 1024, units, false);
 }
 
-/* How many times as much the baseline took; where a budget ended, only a bound is known. */
+/* Returns how many times as much the baseline took; where a budget ended, only a bound is known. */
 static cell cell_ratio(double x, const bench_tally *tally, double y, const bench_tally *baseline)
 {
     cell c = {"-"};

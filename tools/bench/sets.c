@@ -33,11 +33,11 @@ static const bench_method *const all_rates[] = {
 
 /* --- Findings --------------------------------------------------------------------------------- */
 
-/* The default method's pairs a scene. */
+/* Returns the default method's pairs a scene. */
 static double pairs_of(const bench_result *result) { return result->rows[0].tally.pairs.mean; }
 
-/* What the last `step` cases cost beyond the `step` before them, over what those cost beyond the
- * `step` before; `end` counts the cases. 1 is a cost like the logarithm. */
+/* Returns what the last `step` cases cost beyond the `step` before them, over what those cost
+ * beyond the `step` before; `end` counts the cases. 1 is a cost like the logarithm. */
 static double growth(const bench_result *results, size_t end, size_t step)
 {
     const double last = pairs_of(&results[end - 1]), middle = pairs_of(&results[end - 1 - step]),

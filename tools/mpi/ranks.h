@@ -32,7 +32,7 @@ typedef struct ranks_counter {
 bool ranks_counter_open(ranks_counter *counter, int64_t first);
 void ranks_counter_close(ranks_counter *counter);
 
-/* The next number. [by one rank alone] */
+/* Returns the next number. [by one rank alone] */
 int64_t ranks_counter_next(ranks_counter *counter);
 
 /* --- Verbs ------------------------------------------------------------------------------------ */

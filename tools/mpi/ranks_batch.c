@@ -50,7 +50,7 @@ static bool read_taken(ranked_batch *r)
     return true;
 }
 
-/* The answer of a line, with its line end. NULL: there is none, and none comes after it. */
+/* Returns the answer of a line, with its line end. NULL: there is none, and none comes after it. */
 static char *solve_taken(ranked_batch *r)
 {
     batch_item *item = &r->item;

@@ -79,7 +79,8 @@ static void gather_advice(each *e)
     }
 }
 
-/* Whether all ranks have divided the scene alike: a limit of time may end one and not another. */
+/* Returns whether all ranks have divided the scene alike: a limit of time may end one and not
+ * another. */
 static bool is_agreed(const each *e)
 {
     const int64_t own[2] = {(int64_t)e->plan.count, -(int64_t)e->plan.count};

@@ -102,7 +102,7 @@ static void name_claim(search *s, const view *v, int i, int which, ld_interval t
     for (int j = 0; j < s->frame.field->n; ++j) o->p[j] = v->point[j];
 }
 
-/* How it changes with variable k. */
+/* Returns how it changes with variable k. */
 static ld_interval trend(const view *v, int i, int which, int k)
 {
     if (which == RANGE) return jet_slopes(&v->box[i], &v->centre[i], v->offset, k);

@@ -34,7 +34,7 @@ static inline bool ld_interval_is_finite(ld_interval x)
     return x.lo > -INFINITY && x.hi < INFINITY;
 }
 
-/* Whether one of two is 0: one branch, which is nearly always foreseen. */
+/* Returns whether one of two is 0: one branch, which is nearly always foreseen. */
 static inline bool proof_either_is_0(ld_interval x, ld_interval y)
 {
     return ((x.lo == 0) & (x.hi == 0)) | ((y.lo == 0) & (y.hi == 0));

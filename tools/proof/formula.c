@@ -30,8 +30,8 @@ static int same_as(const formula *f, const step *s)
     return -1;
 }
 
-/* Whether a step has a value for all values of the variables, as far as is seen here. Constants
- * have one. */
+/* Returns whether a step has a value for all values of the variables, as far as is seen here.
+ * Constants have one. */
 static bool is_total(const formula *f, const step *s)
 {
     static jet_function *const partial[] = {jet_sqrt_, jet_log_, jet_tan_, jet_asin_, jet_acos_};
@@ -109,8 +109,8 @@ static void mark_uses(formula *f)
     }
 }
 
-/* Whether a step is a sum of terms that are each linear in a variable of its own: its interval is
- * its range, which nothing narrows. */
+/* Returns whether a step is a sum of terms that are each linear in a variable of its own: its
+ * interval is its range, which nothing narrows. */
 static bool is_tight(const formula *f, const step *s)
 {
     unsigned before = 0;

@@ -45,8 +45,8 @@ typedef struct formula_range {
     ld_interval lo, hi;
 } formula_range;
 
-/* The next part of a text as types state it (imp_surface_type.formula: ranges, definitions and
- * three formulas, parts divided by '|'), or NULL after the last. */
+/* Returns the next part of a text as types state it (imp_surface_type.formula: ranges, definitions
+ * and three formulas, parts divided by '|'), or NULL after the last. */
 const char *formula_next_part(const char *text);
 
 /* Reads the first part of the text, and the ranges of its variables, in their order. NULL: `fault`

@@ -49,8 +49,8 @@ jet jet_apply(jet_function *g, const jet *x);
 jet_function jet_sqr_, jet_abs_, jet_sqrt_, jet_cbrt_, jet_exp_, jet_log_, jet_sin_, jet_cos_,
     jet_tan_, jet_asin_, jet_acos_, jet_atan_, jet_sinh_, jet_cosh_, jet_tanh_;
 
-/* Whether all of x is at least `least`. What is less by no more than 2^-40 counts as `least`,
- * unless all of x is: where 1 - u^2 ends at 0, rounding takes it below. */
+/* Returns whether all of x is at least `least`. What is less by no more than 2^-40 counts as
+ * `least`, unless all of x is: where 1 - u^2 ends at 0, rounding takes it below. */
 static inline bool jet_is_from(ld_interval x, proof_real least)
 {
     const proof_real slack = 0x1p-40F;

@@ -35,7 +35,8 @@ jet jet_hull(const jet *x, const jet *y)
     return r;
 }
 
-/* One of two, or between them: slopes are of either, and where they meet there is a kink. */
+/* Returns the jet of the least or greatest of two where it may be either: its slopes are in the range
+ * of both, and where the two meet there is a kink. */
 static jet either(const jet *x, const jet *y, ld_interval value)
 {
     jet r = jet_joined(x, y, value);
@@ -112,7 +113,7 @@ static bool is_whole(const jet *y)
     return is_fixed(y) && ld_interval_is(y->v, k) && floorl(k) == k && proof_size(k) < 1e9F;
 }
 
-/* Whether x^y has values: of numbers below 0 for whole y only; 0^0 is 1. */
+/* Returns whether x^y has values: of numbers below 0 for whole y only; 0^0 is 1. */
 static bool has_power(ld_interval x, const jet *y)
 {
     if (is_whole(y)) return y->v.lo >= 0 || ld_interval_excludes_0(x);

@@ -39,7 +39,7 @@ static inline bool ld_interval_is_within(ld_interval x, ld_interval limits)
     return x.lo >= limits.lo && x.hi <= limits.hi;
 }
 
-/* Whether x is exactly that value. */
+/* Returns whether x is exactly that value. */
 static inline bool ld_interval_is(ld_interval x, proof_real value)
 {
     return x.lo == value && x.hi == value;
@@ -60,13 +60,13 @@ static inline proof_real ld_interval_mid(ld_interval x)
     return proof_smaller(proof_larger(half * x.lo + half * x.hi, x.lo), x.hi);
 }
 
-/* All between. */
+/* Returns the least interval that contains both. */
 static inline ld_interval ld_interval_hull(ld_interval x, ld_interval y)
 {
     return ld_interval_make(proof_smaller(x.lo, y.lo), proof_larger(x.hi, y.hi));
 }
 
-/* The intersection; not empty. */
+/* Returns the intersection, which is not empty. */
 static inline ld_interval ld_interval_intersect(ld_interval x, ld_interval y)
 {
     return ld_interval_make(proof_larger(x.lo, y.lo), proof_smaller(x.hi, y.hi));

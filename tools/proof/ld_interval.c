@@ -28,7 +28,7 @@ static long double libm_up(long double x) { return x + (16 * LDBL_EPSILON * fabs
 static long double larger(long double a, long double b) { return a > b ? a : b; }
 static long double smaller(long double a, long double b) { return a < b ? a : b; }
 
-/* The error of a sum, exact (Knuth); NaN where it overflows. */
+/* Returns the error of a sum, exact (Knuth); NaN where it overflows. */
 static long double sum_error(long double a, long double b, long double sum)
 {
     const long double part = sum - a;
@@ -47,15 +47,15 @@ static long double sum_up(long double a, long double b)
     return sum_error(a, b, sum) <= 0 ? sum : up(sum);
 }
 
-/* The upper half of a number's digits (Veltkamp). */
+/* Returns the upper half of a number's digits (Veltkamp). */
 static long double upper_half(long double a)
 {
     const long double shifted = a * ((1ull << (LDBL_MANT_DIG + 1) / 2) + 1);
     return shifted - (shifted - a);
 }
 
-/* The error of a product, exact (Dekker) unless it might underflow; then, and where the product or
- * what is computed on the way overflows, NaN. */
+/* Returns the error of a product, exact (Dekker) unless it might underflow; then, and where the
+ * product or what is computed on the way overflows, NaN. */
 static long double product_error(long double a, long double b, long double x)
 {
     const long double p = upper_half(a), q = a - p, r = upper_half(b), s = b - r;

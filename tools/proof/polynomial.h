@@ -7,7 +7,7 @@
 
 #include "tools/proof/jet.h"
 
-/* The polynomial of a model, without its remainder, plus `cubic` s_u s_v s_t. */
+/* Returns the polynomial of a model, without its remainder, plus `cubic` s_u s_v s_t. */
 jet polynomial_jet(const imp_model *g, double cubic, const jet s[3]);
 
 #endif

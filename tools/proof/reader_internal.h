@@ -38,7 +38,7 @@ int reader_number(reader *r, double value);
 /* Returns the next character that is no space; '\0' at the end. */
 char reader_peek(reader *r);
 
-/* Whether the next character is this sign, which then is read. */
+/* Returns whether the next character is this sign, which then is read. */
 bool reader_take(reader *r, char sign);
 
 /* Reads a word. False: there is no word here, or one that is too long. */

@@ -36,7 +36,7 @@ void allowance_begin_drawing(allowance *l);
  * no limit; 0 without a limit. */
 double allowance_left(const allowance *l, double share);
 
-/* Whether to refine no further. */
+/* Returns whether to refine no further. */
 bool allowance_is_near(const allowance *l);
 
 /* Returns IMP_SUCCESS while there is time and memory; then an error that names the limit and the
@@ -46,7 +46,7 @@ imp_code allowance_check(allowance *l, const char *what, imp_error *error);
 /* Like allowance_check, before this many bytes are allocated. */
 imp_code allowance_check_bytes(allowance *l, size_t bytes, const char *what, imp_error *error);
 
-/* Whether allowance_check returned an error; the verb's status is then EXIT_UNDECIDED. */
+/* Returns whether allowance_check returned an error; the verb's status is then EXIT_UNDECIDED. */
 bool allowance_ended(const allowance *l);
 
 #endif

@@ -80,7 +80,7 @@ static void svg_text(canvas *c, double x, double y, double size, canvas_anchor a
 
 /* --- Either ----------------------------------------------------------------------------------- */
 
-/* Whether all coordinates are finite and not far outside of every picture. */
+/* Returns whether all coordinates are finite and not far outside of every picture. */
 static bool are_places(const double *xy, size_t n)
 {
     for (size_t k = 0; k < 2 * n; ++k)

@@ -91,7 +91,7 @@ imp_code mesh_make(const imp_scene *scene, size_t body, size_t surface, const me
                    mesh *made, imp_error *error);
 void mesh_free(mesh *m);
 
-/* Whether the surface exists at time t. */
+/* Returns whether the surface exists at time t. */
 bool mesh_exists(const imp_scene *scene, const mesh *m, double t);
 
 /* Points and normals at time t, at which the surface exists. */

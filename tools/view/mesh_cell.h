@@ -18,7 +18,7 @@ typedef struct cell_error {
 imp_code cell_measure(const imp_scene *scene, imp_place at, const double u[2], const double v[2],
                       double t, cell_error *cell, imp_error *error);
 
-/* Whether a point of the box may be within the radius of the focus. */
+/* Returns whether a point of the box may be within the radius of the focus. */
 bool cell_is_in_focus(vec focus, double radius, const vec_box *box);
 
 #endif

@@ -147,7 +147,7 @@ static size_t partner_of(const joiner *j, const side_shape *shape)
     return SIZE_MAX;
 }
 
-/* Whether the patch lies flat on this side. */
+/* Returns whether the patch lies flat on this side. */
 static bool is_flat(const joiner *j, const side *s)
 {
     return j->meshes[s->mesh].patches[s->patch].is_flat;

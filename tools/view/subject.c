@@ -55,8 +55,8 @@ static exit_status search_until(subject *s, double end, const char *speaker, imp
     return code == IMP_SUCCESS ? EXIT_ANSWERED : complain_of(&error, speaker);
 }
 
-/* The first event of a simulation within the time, or the end. The motion has a kink there; where
- * flat faces meet, a search across it splits them all before it splits time. */
+/* Returns the first event of a simulation within the time, or the end. The motion has a kink there;
+ * where flat faces meet, a search across it splits them all before it splits time. */
 static double first_event(const subject *s)
 {
     const imp_options *o = &s->options;

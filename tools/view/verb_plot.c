@@ -174,7 +174,7 @@ static exit_status plot_set(const char *set, const arguments *args)
     return status;
 }
 
-/* Whether the file is of bench: it has "sets". Other files are read as scenes. */
+/* Returns whether the file is of bench: it has "sets". Other files are read as scenes. */
 static bool is_of_bench(const input_text *t)
 {
     json_t *json = json_loadb(t->text, t->length, 0, NULL);

@@ -9,7 +9,7 @@
 /* Writes a picture of a subject: the ending of the file's name, in letters of either case, selects
  * the format. */
 
-/* Whether files with this ending can be written. */
+/* Returns whether files with this ending can be written. */
 bool view_has(const char *ending);
 
 /* Complains of an ending without a format, or whose format was not built in. */
