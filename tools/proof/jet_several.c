@@ -35,8 +35,8 @@ jet jet_hull(const jet *x, const jet *y)
     return r;
 }
 
-/* Returns the jet of the least or greatest of two where it may be either: its slopes are in the range
- * of both, and where the two meet there is a kink. */
+/* Returns the jet of the least or greatest of two where it may be either: its slopes are in the
+ * range of both, and where the two meet there is a kink. */
 static jet either(const jet *x, const jet *y, ld_interval value)
 {
     jet r = jet_joined(x, y, value);
