@@ -129,11 +129,14 @@ core_scene = \
 core_solid = \
     core/solid/closure.c \
     core/solid/components.c core/solid/components.h \
+    core/solid/copies.c core/solid/copies.h \
     core/solid/cell_hash.h \
     core/solid/edges.c core/solid/edges.h \
     core/solid/inside.c core/solid/inside.h \
     core/solid/nesting.c \
     core/solid/patches.c core/solid/patches.h \
+    core/solid/shared.c core/solid/shared.h \
+    core/solid/shell_winding.c core/solid/shell_winding.h \
     core/solid/shells.c core/solid/shells.h \
     core/solid/solid.c core/solid/solid.h core/solid/solid_internal.h \
     core/solid/solid_angle.c core/solid/solid_angle.h \

@@ -31,6 +31,7 @@ check_suites = \
     tests/unit/test_slips \
     tests/unit/test_slip_pairs \
     tests/unit/test_orbits \
+    tests/unit/test_shared_solids \
     tests/unit/test_solids \
     tests/unit/test_solid_shells \
     tests/unit/test_solid_questions \
@@ -508,6 +509,7 @@ noinst_HEADERS += \
     tests/plugins/tiny.h \
     tests/support/alloc_failure.h \
     tests/support/ball_queries.h \
+    tests/support/box_stacks.h \
     tests/support/built_plugins.h \
     tests/support/clearance_helpers.h \
     tests/support/comma_locale.h \

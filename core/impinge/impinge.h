@@ -504,8 +504,8 @@ typedef struct imp_closure {
  * all patches of a shell sign * (du x dv) points inward, or of all of them outward. It never
  * grows. */
 typedef struct imp_facing {
-    size_t shell;
-    int sign; /* 1, or -1; 1 for the first patch of each shell */
+    size_t shell; /* SIZE_MAX: none, since it is a copy of another, or lies between two parts */
+    int sign;     /* 1, or -1; 1 for the first patch of each shell; 0: of no shell */
 } imp_facing;
 
 /* Asked now and then by what may take long, with the program's own pointer: whether to go on. */

@@ -169,8 +169,10 @@ int edge_passes(const edges *e, size_t i, int k, size_t j)
  * each other are in the same cell or in neighbours. */
 typedef struct cells {
     const edges *edges;
-    size_t *first, *next; /* first of each bucket, next of each edge; SIZE_MAX: none */
-    size_t buckets;       /* a power of 2 */
+    union_find *sets;         /* of patches, which seams join; NULL: nobody asked for them */
+    const imp_facing *facing; /* of patches; NULL: not known */
+    size_t *first, *next;     /* first of each bucket, next of each edge; SIZE_MAX: none */
+    size_t buckets;           /* a power of 2 */
 } cells;
 
 /* Returns a point's cell. Cells are counted from the first point of all edges, so that their
@@ -187,9 +189,9 @@ static size_t bucket_of(const cells *c, const double at[3])
 
 static vec3 middle_of(const edges *e, size_t i) { return edge_points(e, i)[e->steps / 2]; }
 
-static bool cells_fill(cells *c, const edges *e)
+static bool cells_fill(cells *c, const edges *e, union_find *sets)
 {
-    *c = (cells){.edges = e, .buckets = 16};
+    *c = (cells){.edges = e, .sets = sets, .buckets = 16};
     while (c->buckets < e->count) c->buckets *= 2;
     c->first = malloc(c->buckets * sizeof *c->first);
     c->next = malloc((e->count + 1) * sizeof *c->next);
@@ -209,23 +211,28 @@ static bool cells_fill(cells *c, const edges *e)
 /* How many partners of one edge were found, and one of them. */
 typedef struct partners {
     size_t count, first;
+    int sum; /* of the directions of those of the same shell, with the signs of their patches */
 } partners;
 
 /* Looks for partners of edge i in one bucket. */
 static void match_bucket(const cells *c, size_t i, size_t bucket, partners *found)
 {
     for (size_t j = c->first[bucket]; j != SIZE_MAX; j = c->next[j]) {
-        if (j == i || edge_compare(c->edges, i, j) == 0) continue;
+        const int direction = j == i ? 0 : edge_compare(c->edges, i, j);
+        if (direction == 0) continue;
         if (found->count++ == 0) found->first = j;
+        if (c->facing != NULL && c->facing[j / 4].shell == c->facing[i / 4].shell)
+            found->sum += direction * c->facing[j / 4].sign;
+        if (c->sets != NULL) union_find_join(c->sets, i / 4, j / 4, 1);
     }
 }
 
-static size_t match_edge(const cells *c, size_t i)
+static partners find_partners(const cells *c, size_t i)
 {
     const vec3 middle = middle_of(c->edges, i);
     size_t seen[8];
     int count = 0;
-    partners found = {0, SEAM_NONE};
+    partners found = {0, SEAM_NONE, 0};
     for (int corner = 0; corner < 8; ++corner) {
         double at[3];
         for (int k = 0; k < 3; ++k) {
@@ -239,16 +246,36 @@ static size_t match_edge(const cells *c, size_t i)
         seen[count++] = bucket;
         match_bucket(c, i, bucket, &found);
     }
+    return found;
+}
+
+static size_t match_edge(const cells *c, size_t i)
+{
+    const partners found = find_partners(c, i);
     if (found.count < 2) return found.first;
     return found.count % 2 == 1 ? SEAM_EVEN : SEAM_ODD;
 }
 
-bool edges_match(const edges *e, size_t *partner)
+bool edges_match(const edges *e, size_t *partner, union_find *sets)
 {
     cells c;
-    const bool filled = cells_fill(&c, e);
+    const bool filled = cells_fill(&c, e, sets);
     for (size_t i = 0; filled && i < e->count; ++i)
         partner[i] = edge_is_point(e, i) ? SEAM_NONE : match_edge(&c, i);
+    free(c.first);
+    free(c.next);
+    return filled;
+}
+
+bool edges_cancel(const edges *e, const size_t *partner, const imp_facing *facing, bool *cancel)
+{
+    cells c;
+    const bool filled = cells_fill(&c, e, NULL);
+    c.facing = facing;
+    *cancel = true;
+    for (size_t i = 0; filled && *cancel && i < e->count; ++i)
+        if (partner[i] == SEAM_EVEN && !edge_is_point(e, i))
+            *cancel = find_partners(&c, i).sum + facing[i / 4].sign == 0;
     free(c.first);
     free(c.next);
     return filled;

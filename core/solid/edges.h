@@ -5,6 +5,7 @@
 
 #include <stdint.h>
 
+#include "core/base/union_find.h"
 #include "core/solid/patches.h"
 
 /* The edges of the patches of a body, and which of them run along each other
@@ -48,11 +49,16 @@ int edge_passes(const edges *e, size_t i, int k, size_t j);
 
 /* Sets partner[i], for each edge i that is no point, to the one other edge along the same seam.
  * SEAM_NONE: there is none. SEAM_EVEN, SEAM_ODD: there are several, and the seam has an even or an
- * odd number of edges, i counted; where it is odd, the patches cannot bound a volume. False: no
- * memory. */
+ * odd number of edges, i counted; where it is odd, the patches cannot bound a volume, unless some
+ * are copies of others (shared.h). Joins the sets of all patches along one seam, unless `sets` is
+ * NULL. False: no memory. */
 #define SEAM_NONE SIZE_MAX
 #define SEAM_EVEN (SIZE_MAX - 1)
 #define SEAM_ODD (SIZE_MAX - 2)
-bool edges_match(const edges *e, size_t *partner);
+bool edges_match(const edges *e, size_t *partner, union_find *sets);
+
+/* Sets *cancel to whether, at each seam of several edges, the edges of each shell run in opposite
+ * directions in pairs, where patches of sign -1 run the other way round. False: no memory. */
+bool edges_cancel(const edges *e, const size_t *partner, const imp_facing *facing, bool *cancel);
 
 #endif

@@ -10,6 +10,7 @@
 #include "core/base/status.h"
 #include "core/base/union_find.h"
 #include "core/solid/edges.h"
+#include "core/solid/shared.h"
 
 /* --- Seams ------------------------------------------------------------------------------------ */
 
@@ -75,7 +76,7 @@ static void join_all(joining *j)
     for (size_t i = 0; i < e->count; ++i) {
         const size_t partner = j->partner[i];
         const int middle = e->steps / 2;
-        j->shares_edges = j->shares_edges || partner == SEAM_EVEN;
+        j->shares_edges = j->shares_edges || partner == SEAM_EVEN || partner == SEAM_ODD;
         if (partner == SEAM_EVEN || edge_is_point(e, i)) continue;
         if (partner == SEAM_ODD)
             note_fault(j, IMP_CLOSURE_OPEN, i, middle);
@@ -103,8 +104,8 @@ static void number_shells(shells *s, union_find *sets, size_t count)
     }
 }
 
-static imp_code find_within(shells *s, const patches *p, double slack, const limit_watch *watch,
-                            imp_closure *closure, imp_error *error)
+imp_code solid_shells_within(shells *s, const patches *p, double slack, const limit_watch *watch,
+                             imp_closure *closure, imp_error *error)
 {
     const size_t n = p->count;
     edges e;
@@ -116,12 +117,16 @@ static imp_code find_within(shells *s, const patches *p, double slack, const lim
     if (!has_sets || j.partner == NULL) code = error_set_memory(error);
     if (code == IMP_SUCCESS && !e.bounded)
         closure->verdict = IMP_CLOSURE_UNBOUNDED;
-    else if (code == IMP_SUCCESS && !edges_match(&e, j.partner))
+    else if (code == IMP_SUCCESS && !edges_match(&e, j.partner, NULL))
         code = error_set_memory(error);
     if (code == IMP_SUCCESS && e.bounded) join_all(&j);
     if (code == IMP_SUCCESS) number_shells(s, &j.sets, n);
+    bool cancel = true;
+    if (code == IMP_SUCCESS && j.shares_edges && !edges_cancel(&e, j.partner, s->facing, &cancel))
+        code = error_set_memory(error);
     s->slack = slack;
-    s->is_doubtful = j.shares_edges;
+    s->shares_edges = j.shares_edges;
+    s->is_doubtful = !cancel;
     edges_free(&e);
     union_find_clear(&j.sets);
     free(j.partner);
@@ -133,7 +138,18 @@ size_t solid_shells_bytes(size_t count)
     const joining *j = NULL;
     const shells *s = NULL;
     return edges_bytes(count) + union_find_bytes(count) +
-           count * (4 * sizeof *j->partner + sizeof *s->facing);
+           count * (4 * sizeof *j->partner + sizeof *s->facing + sizeof *s->is_repeated) +
+           solid_shared_bytes(count);
+}
+
+/* Leaves patches out where more than two share an edge, and some are copies. */
+static imp_code find_within(shells *s, const patches *p, double slack, const limit_watch *watch,
+                            imp_closure *closure, imp_error *error)
+{
+    const imp_code code = solid_shells_within(s, p, slack, watch, closure, error);
+    if (code != IMP_SUCCESS || !s->shares_edges || closure->verdict == IMP_CLOSURE_STOPPED)
+        return code;
+    return solid_shells_shared(s, p, slack, watch, closure, error);
 }
 
 #define FINE_SLACK 1e-9 /* part of the body's size within which points are the same */
@@ -142,8 +158,9 @@ imp_code solid_shells_find(shells *s, const patches *p, double slack, const limi
                            imp_closure *closure, imp_error *error)
 {
     const double fine = FINE_SLACK * p->size;
-    *s = (shells){.facing = calloc(p->count + 1, sizeof *s->facing)};
-    if (s->facing == NULL) return error_set_memory(error);
+    *s = (shells){.facing = calloc(p->count + 1, sizeof *s->facing),
+                  .is_repeated = calloc(p->count + 1, sizeof *s->is_repeated)};
+    if (s->facing == NULL || s->is_repeated == NULL) return error_set_memory(error);
     closure->verdict = p->bounded ? IMP_CLOSURE_EMPTY : IMP_CLOSURE_UNBOUNDED;
     if (!p->bounded || p->count == 0 || !(p->size > 0)) return IMP_SUCCESS;
     imp_code code = find_within(s, p, fine, watch, closure, error);
@@ -157,5 +174,6 @@ imp_code solid_shells_find(shells *s, const patches *p, double slack, const limi
 void solid_shells_free(shells *s)
 {
     free(s->facing);
+    free(s->is_repeated);
     *s = (shells){0};
 }

@@ -17,10 +17,12 @@
  * a proof: a body that is said to bound a volume is taken to do so where no hole shows. */
 
 typedef struct shells {
-    imp_facing *facing; /* by patch */
+    imp_facing *facing; /* by patch; shell SIZE_MAX, sign 0: the patch was left out (shared.h) */
     size_t count;
-    double slack;     /* within which edges are the same; length */
-    bool is_doubtful; /* more than two patches share an edge: shells may lack some and be open */
+    double slack;      /* within which edges are the same; length */
+    bool shares_edges; /* more than two patches share an edge */
+    bool is_doubtful;  /* they do so that shells may lack some patches and be open */
+    bool *is_repeated; /* by shell: the body has several of it, of which others are left out */
 } shells;
 
 /* Tries edges within 1e-9 of the body's size first, then within `slack` if that is larger: small
@@ -30,6 +32,11 @@ typedef struct shells {
 imp_code solid_shells_find(shells *s, const patches *p, double slack, const limit_watch *watch,
                            imp_closure *closure, imp_error *error);
 void solid_shells_free(shells *s);
+
+/* Finds shells of patches that are not left out, with edges within `slack` only. s->facing has room
+ * for all patches. */
+imp_code solid_shells_within(shells *s, const patches *p, double slack, const limit_watch *watch,
+                             imp_closure *closure, imp_error *error);
 
 /* Returns the most memory that solid_shells_find takes. */
 size_t solid_shells_bytes(size_t count);

@@ -10,7 +10,6 @@
 #include <string.h>
 
 #include "core/base/status.h"
-#include "core/solid/winding.h"
 #include "core/surface/region.h"
 
 /* --- Creation and destruction ----------------------------------------------------------------- */
@@ -18,8 +17,8 @@
 size_t solid_bytes(size_t count)
 {
     const solid *s = NULL;
-    return sizeof *s +
-           count * (sizeof *s->patches.patch + sizeof *s->shells.facing + 2 * sizeof *s->boxes);
+    return sizeof *s + count * (sizeof *s->patches.patch + sizeof *s->shells.facing +
+                                sizeof *s->shells.is_repeated + 2 * sizeof *s->boxes);
 }
 
 imp_code solid_new(const imp_scene *scene, size_t body, double t, double slack,
@@ -77,7 +76,8 @@ static imp_code make_boxes(solid *s, imp_error *error)
         const imp_code code = patch_include(one, &region, model, error);
         if (code != IMP_SUCCESS) return code;
         solid_box_around(model, &s->boxes[k]);
-        solid_box_add(&s->boxes[p->count + s->shells.facing[k].shell], &s->boxes[k]);
+        const size_t shell = s->shells.facing[k].shell;
+        if (shell != SIZE_MAX) solid_box_add(&s->boxes[p->count + shell], &s->boxes[k]);
     }
     return IMP_SUCCESS;
 }
@@ -98,50 +98,14 @@ static imp_code read_shells(solid *s, imp_error *error)
 
 /* --- How often a shell winds around a point --------------------------------------------------- */
 
-/* Sums up the signed solid angles of the patches of one shell, or of all shells: SIZE_MAX. */
-static imp_code sum_up(const solid *s, size_t shell, const winding_view *view, winding_sum *sum,
-                       imp_error *error)
-{
-    *sum = (winding_sum){{0, 0}, INFINITY};
-    for (size_t k = 0; k < s->patches.count; ++k) {
-        const imp_facing *f = &s->shells.facing[k];
-        if (shell != SIZE_MAX && f->shell != shell) continue;
-        const imp_code code = winding_add(view, &s->patches.patch[k], f->sign, sum, error);
-        if (code != IMP_SUCCESS) return code;
-    }
-    return IMP_SUCCESS;
-}
-
-/* Chords of edges are finer by this factor where the sum leaves two integers possible. */
-enum { FINER = 16, ATTEMPTS = 3 };
-
-/* Lemma. A closed shell winds around x an integer number of times, which is in number -+ error: if
- * that is an interval of less than 1 around one integer, it is that one. It winds as often around
- * all points nearer to x than the shell is, and not at all around points out of its box. Where it
- * may not be closed, as edges that more than two patches share leave open, only its number shows
- * that: no integer. */
+/* Lemma. A closed shell does not wind around points out of its box. */
 imp_code solid_wind(const solid *s, size_t shell, vec3 x, double off, winding_number *found,
                     imp_error *error)
 {
-    winding_view view = {.t = s->patches.t, .x = x, .slack = s->shells.slack, .fineness = 0x1p-10};
     *found = (winding_number){.is_whole = true};
     if (!s->shells.is_doubtful && solid_box_excludes(solid_shell_box(s, shell), x, off))
         return IMP_SUCCESS;
-    for (int k = 0; k < ATTEMPTS; ++k, view.fineness /= FINER) {
-        winding_sum sum;
-        const imp_code code = sum_up(s, shell, &view, &sum, error);
-        if (code != IMP_SUCCESS) return code;
-        found->number = sum.seen.angle / FULL_ANGLE;
-        found->error =
-            sum_upper(sum.seen.error / FULL_ANGLE, 8 * UNIT_ROUNDOFF * fabs(found->number));
-        const double whole = rint(found->number), rest = fabs(found->number - whole);
-        const bool is_known = sum_upper(rest, found->error) < 0.5;
-        found->is_near = !is_known || !(sum.distance > off);
-        found->is_whole = !(rest > found->error);
-        found->times = is_known ? (long)whole : 0;
-        if (is_known || !found->is_whole || !(sum.seen.error < FULL_ANGLE)) break;
-    }
-    return IMP_SUCCESS;
+    return shell_wind(&s->shells, &s->patches, shell, x, off, found, error);
 }
 
 /* --- Not closed ------------------------------------------------------------------------------- */
@@ -150,10 +114,9 @@ imp_code solid_wind(const solid *s, size_t shell, vec3 x, double off, winding_nu
 static imp_code tell_number(const solid *s, vec3 x, char text[160], imp_error *error)
 {
     winding_sum sum;
-    const winding_view view = {.t = s->patches.t, .x = x, .fineness = 0x1p-10};
     text[0] = '\0';
     if (!s->patches.bounded || s->boxes == NULL) return IMP_SUCCESS;
-    const imp_code code = sum_up(s, SIZE_MAX, &view, &sum, error);
+    const imp_code code = shell_solid_angle(&s->shells, &s->patches, SIZE_MAX, x, &sum, error);
     if (code == IMP_SUCCESS && sum.seen.error < 0.1 * FULL_ANGLE)
         snprintf(text, 160, "; they wind %.3g times around (%g, %g, %g)",
                  sum.seen.angle / FULL_ANGLE, x.x[0], x.x[1], x.x[2]);
@@ -229,7 +192,8 @@ static imp_code find_enclosing(const solid *s, vec3 x, double off, enclosing *ar
 }
 
 /* Decides on the side from the shells around x: those at even depth are outer walls, and those at
- * odd depth are walls of cavities in them. */
+ * odd depth are walls of cavities in them. A shell that is there twice, inside of others or around
+ * them, may be a cavity's wall and that of a part that fills it: then nothing is known. */
 static imp_code count_walls(const solid *s, enclosing *around, solid_side *side, bool *stopped,
                             imp_error *error)
 {
@@ -237,7 +201,9 @@ static imp_code count_walls(const solid *s, enclosing *around, solid_side *side,
     bool known = true;
     imp_code code = IMP_SUCCESS;
     around->depth[0] = 0;
-    if (around->count > 1)
+    for (size_t k = 0; k < around->count && around->count > 1; ++k)
+        known = known && !s->shells.is_repeated[around->shell[k]];
+    if (around->count > 1 && known)
         code = solid_depths(s, around->shell, around->count, around->depth, &known, stopped, error);
     for (size_t k = 0; code == IMP_SUCCESS && !*stopped && k < around->count; ++k)
         outer += around->depth[k] % 2 == 0 ? 1 : -1;

@@ -4,6 +4,7 @@
 #define CORE_SOLID_SOLID_INTERNAL_H
 
 #include "core/base/rounding.h"
+#include "core/solid/shell_winding.h"
 #include "core/solid/solid.h"
 
 /* What the files of a solid share: solid.c tells on which side points are, nesting.c which shells
@@ -25,13 +26,7 @@ struct solid {
     solid_box *boxes; /* of each patch, then of each shell */
 };
 
-/* The winding number of a shell around x: the enclosure number -+ error, and `times`, the integer
- * in it, which holds for all points within `off` of x. is_near: x is too near for that. */
-typedef struct winding_number {
-    double number, error;
-    long times;
-    bool is_near, is_whole; /* is_whole: the number may be an integer */
-} winding_number;
+/* Finds the winding number of a shell around x (shell_winding.h). */
 imp_code solid_wind(const solid *s, size_t shell, vec3 x, double off, winding_number *found,
                     imp_error *error);
 

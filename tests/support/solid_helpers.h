@@ -18,7 +18,7 @@ static inline void open_registry(void) { registry = query_registry(); }
 static inline void close_registry(void) { imp_registry_free(registry); }
 
 typedef struct scene_words {
-    char text[16384];
+    char text[65536];
 } scene_words;
 
 /* A scene of these bodies, as in a scene file. */

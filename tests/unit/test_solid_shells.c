@@ -29,10 +29,6 @@ START_TEST(bodies_that_are_not_closed_are_refused_with_the_place_and_the_number)
     check_refused("{\"type\": \"mesh\", \"points\": [[-1,-1,-1],[2,0,0],[0,2,0],[0,0,2]], "
                   "\"faces\": [[0,2,1],[0,1,3],[0,3,2]]}",
                   "borders on the edge of surface 0, piece 0, at (");
-    /* one is there twice: */
-    check_refused("{\"type\": \"mesh\", \"points\": [[-1,-1,-1],[2,0,0],[0,2,0],[0,0,2]], "
-                  "\"faces\": [[0,2,1],[0,1,3],[0,3,2],[1,2,3],[1,2,3]]}",
-                  "one too many");
     check_refused("{\"type\": \"formula\", \"x\": \"(1+v*cos(u/2))*cos(u)\", \"y\": "
                   "\"(1+v*cos(u/2))*sin(u)\", \"z\": \"v*sin(u/2)\", \"domain\": [[0, "
                   "6.283185307179586], [-0.3, 0.3]]}",
@@ -44,22 +40,6 @@ START_TEST(bodies_that_are_not_closed_are_refused_with_the_place_and_the_number)
                   "\"sin(u/2)*sin(v)+cos(u/2)*sin(2*v)\", \"domain\": [[0, "
                   "6.283185307179586], [0, 6.283185307179586]]}",
                   "have no inside");
-}
-END_TEST
-
-#define CUBE "{\"type\": \"box\", \"size\": [2, 2, 2]}"
-
-START_TEST(shells_that_share_all_edges_with_others_are_never_taken_for_empty)
-{
-    static const char box[] = "{\"type\": \"box\", \"size\": [1, 1, 1], \"center\": [%d, %d, %d]}";
-    char text[8192] = "", *end = text;
-    const scene_words twice = words(CUBE ", " CUBE);
-    check_refused(twice.text, "bound no volume");
-    for (int k = 0; k < 27; ++k) {
-        end += sprintf(end, "%s", k > 0 ? ", " : "");
-        end += sprintf(end, box, k % 3 - 1, k / 3 % 3 - 1, k / 9 - 1);
-    }
-    check_refused(text, "bound no volume");
 }
 END_TEST
 
@@ -205,7 +185,6 @@ int main(void)
 {
     const TTest *const tests[] = {
         bodies_that_are_not_closed_are_refused_with_the_place_and_the_number,
-        shells_that_share_all_edges_with_others_are_never_taken_for_empty,
         gaps_up_to_gamma_are_closed,
         what_a_thin_wall_holds_is_not_in_it,
         of_shells_that_touch_nothing_is_claimed,

@@ -87,6 +87,7 @@ static shape_verdict add_patches(const patches *p, const shells *s, int cells, v
         const shape_verdict verdict = patch_grid(p, i, cells, at, why);
         if (verdict != SHAPE_FOUND) return verdict;
         if (i == 0) *origin = at[0];
+        if (s->facing[i].sign == 0) continue;
         for (int k = 0; k < points; ++k) at[k] = vec_sub(at[k], *origin);
         for (int level = 0; level < levels_of(cells); ++level)
             add_grid(at, cells, 1 << level, s->facing[i].sign, each[s->facing[i].shell].sum[level]);

@@ -27,6 +27,7 @@ static shape_verdict read_extents(const patches *p, const shells *s, shell_exten
     vec at[POINTS];
     for (size_t k = 0; k < s->count; ++k) each[k].box = vec_box_empty();
     for (size_t i = 0; i < p->count; ++i) {
+        if (s->facing[i].sign == 0) continue;
         if (limits_reached(p->limits) != IMP_REASON_NONE) return SHAPE_STOPPED;
         const shape_verdict verdict = patch_grid(p, i, CELLS, at, why);
         if (verdict != SHAPE_FOUND) return verdict;
