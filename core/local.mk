@@ -51,7 +51,7 @@ core_surface = \
     core/surface/surface_motion.c core/surface/surface_net.c core/surface/surface_pose.c \
     core/surface/surface_orbit.c core/surface/surface_pair_slip.c \
     core/surface/surface_rate.c core/surface/surface_slip.c \
-    core/surface/surface_shift.c core/surface/surface_shift.h \
+    core/surface/time_model.h core/surface/surface_shift.c core/surface/surface_shift.h \
     core/surface/surface_spread.c core/surface/surface_spread.h \
     core/surface/surface_symmetry.c
 

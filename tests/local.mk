@@ -32,6 +32,7 @@ check_suites = \
     tests/unit/test_slip_pairs \
     tests/unit/test_orbits \
     tests/unit/test_shared_solids \
+    tests/unit/test_time_models \
     tests/unit/test_solids \
     tests/unit/test_solid_shells \
     tests/unit/test_solid_questions \

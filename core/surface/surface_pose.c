@@ -2,10 +2,10 @@
  * SPDX-License-Identifier: Apache-2.0 */
 #include <config.h>
 
-#include <impinge/model.h>
 #include <string.h>
 
 #include "core/surface/surface_internal.h"
+#include "core/surface/time_model.h"
 
 bool surface_is_rigid(const surface *s)
 {
@@ -93,6 +93,7 @@ static void add_pose(imp_pose *next, double norm, imp_pose *pose)
 {
     imp_pose all;
     imp_model way[3];
+    const imp_model *const ways[3] = {&way[0], &way[1], &way[2]};
     if (pose_turns(next) && !pose_turns(pose)) choose_pivot(next, pose);
     for (int i = 0; i < 3; ++i) way[i] = imp_shift(pose->shift[i], -next->pivot[i]);
     if (is_identity(next->turn)) {
@@ -101,11 +102,12 @@ static void add_pose(imp_pose *next, double norm, imp_pose *pose)
     }
     for (int i = 0; i < 3; ++i) {
         for (int j = 0; j < 3; ++j) {
-            const imp_model column[3] = {pose->turn[0][j], pose->turn[1][j], pose->turn[2][j]};
+            const imp_model *const column[3] = {&pose->turn[0][j], &pose->turn[1][j],
+                                                &pose->turn[2][j]};
             all.turn[i][j] =
-                imp_model_within(imp_dot3(next->turn[i], column), imp_interval_make(-norm, norm));
+                time_within(time_dot3(next->turn[i], column), imp_interval_make(-norm, norm));
         }
-        all.shift[i] = imp_add(imp_dot3(next->turn[i], way), next->shift[i]);
+        all.shift[i] = imp_add(time_dot3(next->turn[i], ways), next->shift[i]);
     }
     memcpy(all.pivot, pose->pivot, sizeof all.pivot);
     memset(all.fixed, 0, sizeof all.fixed);
