@@ -37,7 +37,11 @@ def pack(parameters: Mapping[str, Any]) -> Packed:
 def argument(name: str, value: Any, kept: List[Any], written: Dict[str, Any]) -> lib.Argument:
     """The value by pointer and extents; what it points to is put into `kept`."""
     a = lib.Argument(name=values.text("name of a parameter", name), rank=0, extent=(1, 1, 1))
-    if isinstance(value, (bool, numpy.bool_)):
+    if type(value) is list and value and all(type(x) is float for x in value):
+        _row(a, name, value, kept, written)
+    elif isinstance(value, numpy.ndarray):
+        _numbers(a, name, value, kept, written)
+    elif isinstance(value, (bool, numpy.bool_)):
         a.kind, a.single = _BOOLEAN, float(value)
         written[name] = bool(value)
     elif isinstance(value, (str, os.PathLike)):
@@ -67,6 +71,14 @@ def _table(a: lib.Argument, name: str, value: Mapping[str, Any], kept: List[Any]
     a.kind, a.extent[0] = _TABLE, len(table)
     a.string, a.number = c.cast(texts, c.POINTER(c.c_char_p)), c.cast(numbers, c.POINTER(c.c_double))
     written[name] = {key.decode(): number for key, number in table.items()}
+
+
+def _row(a: lib.Argument, name: str, value: List[float], kept: List[Any], written: Dict[str, Any]) -> None:
+    """A list of floats, without an array: what maps of robots and mechanisms have most of."""
+    row = (c.c_double * len(value))(*value)
+    kept.append(row)
+    a.kind, a.rank, a.extent[0], a.number = _NUMBER, 1, len(value), row
+    written[name] = list(value)
 
 
 def _numbers(a: lib.Argument, name: str, value: Any, kept: List[Any],

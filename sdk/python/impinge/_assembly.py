@@ -55,6 +55,7 @@ class _Assembly:
 
     def __init__(self) -> None:
         self._error = lib.Error()
+        self._error_at = c.byref(self._error)
         self._builder = lib.library.imp_builder_new(Registry.handle())
         if not self._builder:
             raise MemoryError("out of memory")
@@ -66,7 +67,7 @@ class _Assembly:
         lib.library.imp_builder_free(self._builder)
 
     def call(self, function: Any, *given: Any) -> None:
-        code = function(self._builder, *given, c.byref(self._error))
+        code = function(self._builder, *given, self._error_at)
         if code != 0:
             check(code, self._error)
 
@@ -106,8 +107,9 @@ def _is_plain(made: document.Document) -> bool:
         stages = [*body.get("surfaces", ()), *body.get("maps", ())]
         stages += [one for surface in body.get("surfaces", ())
                    if isinstance(surface, dict) for one in surface.get("maps", ())]
-        if not _BODY_KEYS.issuperset(body) or isinstance(body.get("group"), str) or \
-                not all(isinstance(stage, dict) and isinstance(stage.get("type"), str) for stage in stages):
+        if not _BODY_KEYS.issuperset(body) or isinstance(body.get("group"), str) or not all(
+                type(stage) is Stage or (isinstance(stage, dict) and isinstance(stage.get("type"), str))
+                for stage in stages):
             return False
     return True
 
