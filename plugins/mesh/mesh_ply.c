@@ -26,8 +26,9 @@ static size_t line_of(const ply_reader *r)
 static imp_status refuse_end(ply_reader *r)
 {
     if (mesh_text_status(r->text) != IMP_STATUS_OK) return IMP_STATUS_INTERNAL;
-    return triangles_refuse(r->fault, line_of(r),
-                            "the file ends before all elements of its head are there");
+    static const char text[] = "the file ends before all elements of its head are there";
+    if (r->head.format == PLY_TEXT) return triangles_refuse(r->fault, line_of(r), text);
+    return triangles_refuse_byte(r->fault, (size_t)(r->end - r->bytes) - 1, text);
 }
 
 static imp_status next_word(ply_reader *r, double *x)

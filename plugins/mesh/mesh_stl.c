@@ -91,17 +91,19 @@ static bool begins_with_solid(const char *bytes, size_t length)
     return length >= of_word && strncasecmp(bytes, word, of_word) == 0;
 }
 
-/* The length decides: text may begin with any 84 bytes, and a binary file with "solid". */
+/* The length decides: text may begin with any 84 bytes, and a binary file with "solid". Text has no
+ * NUL, so that a binary file that was cut is not taken for text. */
 imp_status mesh_read_stl(const char *bytes, size_t length, triangles *to, triangles_fault *fault)
 {
     const size_t count =
         length >= HEAD ? (size_t)mesh_scalar_at(SCALAR_UINT32, false, bytes + HEAD - 4) : 0;
     if (length >= HEAD && length == HEAD + RECORD * count)
         return read_binary(bytes, count, to, fault);
-    if (begins_with_solid(bytes, length)) return read_text(bytes, length, to, fault);
+    if (begins_with_solid(bytes, length) && memchr(bytes, '\0', length) == NULL)
+        return read_text(bytes, length, to, fault);
     return triangles_refuse(
         fault, 0,
-        "neither text, which begins with 'solid', nor binary: %zu bytes, and %zu "
-        "for %zu triangles",
+        "neither text, which begins with 'solid', nor binary: %zu bytes, in place of %zu "
+        "for %zu triangles; was it cut?",
         length, HEAD + RECORD * count, count);
 }
