@@ -111,13 +111,17 @@ def test_a_trajectory_follows_its_table(ask):
     for content, message in [
             ("time,turn\n0,0\n", "two rows or more"), ("time,turn\n0,0\n1\n", "q.csv:3: got 1 cells, must be 2"),
             ("time,turn\n0,0\n1,x\n", "q.csv:3: got 'x', must be a number"),
+            ("time,turn\n0,nan\n1,0\n", "q.csv:2: got 'nan', must be a finite number"),
+            ("time,turn\n0,0\n1,0\n1,0\n", "q.csv:4: got the time 1.0 after 1.0, must increase"),
             ("time,turn,turn\n0,0,0\n1,1,1\n", "q.csv:1: a name stands twice"), ("", "must have a head"),
             ("time,\xe4\n".encode("latin-1"), "must be CSV in UTF-8")]:
         table.write_bytes(content if isinstance(content, bytes) else content.encode())
         status, _, complaint = ask("--trajectory", table)
         assert status == 4 and message in complaint, complaint
-    table.write_text("time,tilt\n0,0\n1,1\n")
-    assert ask("--trajectory", table)[0] == 2
+    for content in "time,tilt\n0,0\n1,1\n", "time,lift\n0,0\n1,99\n", "time,turn,bend,turn.velocity\n0,0,0,0\n1,1,1,0\n":
+        table.write_text(content)
+        status, _, complaint = ask("--trajectory", table)
+        assert status == 2 and "q.csv: " in complaint, complaint
 
 
 REQUEST = """

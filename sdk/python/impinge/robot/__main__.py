@@ -177,13 +177,23 @@ def _table(robot: Robot, asked: argparse.Namespace, notes: List[str]) -> Table:
     return read_table(asked.trajectory)
 
 
+def _scene(robot: Robot, table: Table, asked: argparse.Namespace) -> Scene:
+    """The motion; what is wrong with a table is told with its file."""
+    try:
+        return robot.scene(table.times, table.positions, velocities=table.velocities or None,
+                           accelerations=table.accelerations or None, interpolation=asked.interpolation,
+                           world=asked.world, errors=asked.robust)
+    except UsageError as error:
+        if asked.trajectory is None or not str(error).startswith(("positions", "velocities", "accelerations")):
+            raise
+        raise UsageError(f"{asked.trajectory}: {error}") from None
+
+
 def _answer(asked: argparse.Namespace) -> Answer:
     robot = load(asked.urdf, asked.srdf, _packages(asked.package))
     notes: List[str] = []
     table = _table(robot, asked, notes)
-    scene = robot.scene(table.times, table.positions, velocities=table.velocities or None,
-                        accelerations=table.accelerations or None, interpolation=asked.interpolation,
-                        world=asked.world, errors=asked.robust)
+    scene = _scene(robot, table, asked)
     if asked.robust is not None:
         return _robust_answer(scene, asked, notes)
     limits: Dict[str, Any] = {"gamma": asked.gamma, "max_seconds": asked.max_seconds}

@@ -45,6 +45,11 @@ def read_table(path: str) -> Table:
                 column.append(float(cell))
             except ValueError:
                 raise SceneError(f"{path}:{number}: got {cell!r}, must be a number") from None
+            if not math.isfinite(column[-1]):
+                raise SceneError(f"{path}:{number}: got {cell!r}, must be a finite number")
+        if row and len(columns[0]) > 1 and columns[0][-1] <= columns[0][-2]:
+            raise SceneError(f"{path}:{number}: got the time {columns[0][-1]!r} after {columns[0][-2]!r}, must increase; "
+                             "leave out rows that stand twice")
     if len(head) < 2 or len(columns[0]) < 2:
         raise SceneError(f"{path}: must have a head (time, joints by name) and two rows or more")
     if len(set(head)) != len(head):
