@@ -24,15 +24,29 @@ typedef struct file {
     size_t *first_chain;             /* number of each body's first surface among all surfaces */
     const shared_instance **written; /* instances, in the order of their numbers */
     size_t count, capacity;
+    uint8_t held[4096]; /* bytes that the sink has not got yet */
+    size_t held_count;
 } file;
 
 /* --- Bytes and lines -------------------------------------------------------------------------- */
+
+static void hand_over(file *f)
+{
+    if (f->held_count > 0) f->to->write(f->to->context, f->held, f->held_count);
+    f->held_count = 0;
+}
 
 static void put_bytes(void *context, const void *bytes, size_t size)
 {
     file *f = context;
     sha256_add(&f->hash, bytes, size);
-    f->to->write(f->to->context, bytes, size);
+    if (size > sizeof f->held - f->held_count) hand_over(f);
+    if (size > sizeof f->held) {
+        f->to->write(f->to->context, bytes, size);
+        return;
+    }
+    memcpy(f->held + f->held_count, bytes, size);
+    f->held_count += size;
 }
 
 __attribute__((format(printf, 2, 3))) static void put(file *f, const char *format, ...)
@@ -248,6 +262,7 @@ imp_code proof_file_write(const imp_scene *scene, const proof_search *search,
         put(&f, "trees\n");
         put_trees(&f, trees);
         sha256_end(&f.hash, digest);
+        hand_over(&f);
         to->write(to->context, digest, sizeof digest);
     }
     proof_trees_free(trees);

@@ -72,7 +72,7 @@ needs_python() {
 
 @test "the Python module keeps its tests" {
     needs_python
-    PYTHONPATH=$top_srcdir/sdk/python run "$PYTHON3" -m pytest -q -p no:cacheprovider \
+    IMPINGE_VERIFY=$top_builddir/tools/impinge-verify PYTHONPATH=$top_srcdir/sdk/python run "$PYTHON3" -m pytest -q -p no:cacheprovider \
         "$top_srcdir/tests/python"
     echo "$output"
     [ "$status" -eq 0 ]

@@ -5,8 +5,12 @@
 
 import ctypes
 import dataclasses
+import os
 import pathlib
+import pickle
+import shutil
 import signal
+import subprocess
 import threading
 import time
 
@@ -365,3 +369,68 @@ def test_who_is_inside_a_solid_body_is_in_contact_at_the_start() -> None:
     builder.body("pot").surface("box", size=[4, 4, 4])
     builder.body("pea").surface("sphere", radius=0.1)
     assert builder.build().solve().kind is None
+
+
+def verified(*words):
+    """What impinge-verify says first, and its exit status."""
+    command = os.environ.get("IMPINGE_VERIFY") or shutil.which("impinge-verify")
+    if command is None or not os.path.exists(command):
+        pytest.skip("no impinge-verify")
+    done = subprocess.run([command, *map(str, words)], capture_output=True, text=True, check=False)
+    return done.stdout.split("\n", 1)[0], done.returncode
+
+
+def test_certificates_are_written_and_verified(tmp_path):
+    scene = flying().build()
+    result = scene.solve(gamma=1e-3, proof=tmp_path / "solve.proof")
+    assert result.verdict == "contact"
+    scene.clearance(required=0.1, time=(0, 0.3), proof=tmp_path / "clearance.proof")
+    text = (tmp_path / "solve.proof").read_bytes()
+    assert b"\nverdict contact\n" in text and b"\ntype sphere " in text and b"\nscene " not in text
+    assert sorted(p.name for p in tmp_path.iterdir()) == ["clearance.proof", "solve.proof"]
+    for name in ("solve", "clearance"):
+        assert verified(tmp_path / f"{name}.proof") == ("holds", 0)
+
+
+def test_certificates_are_receipts_of_the_file_they_are_of(tmp_path):
+    flying().build().save(tmp_path / "scene.json")
+    scene = impinge.Scene(tmp_path / "scene.json")
+    proof = tmp_path / "scene.proof"
+    scene.solve(gamma=1e-3, proof=proof)
+    assert b"\nscene " in proof.read_bytes()
+    impinge.Scene.from_file(tmp_path / "scene.json").solve(gamma=1e-3, proof=tmp_path / "same")
+    assert (tmp_path / "same").read_bytes() == proof.read_bytes()
+    scene.set_values("left", {"radius": 0.25}, surface=0)
+    scene.solve(gamma=1e-3, proof=tmp_path / "changed")
+    assert b"\nscene " not in (tmp_path / "changed").read_bytes()
+    scene = pickle.loads(pickle.dumps(scene))
+    scene.solve(gamma=1e-3, proof=tmp_path / "changed")
+    assert b"\nscene " not in (tmp_path / "changed").read_bytes()
+    assert verified(proof)[0] == "holds"
+    with open(tmp_path / "scene.json", "a", encoding="utf-8") as file:
+        file.write("\n")
+    assert verified(proof, tmp_path / "scene.json") == ("stale: the scene has changed", 3)
+
+
+def test_certificates_that_cannot_be_are_refused(tmp_path):
+    scene, proof = flying().build(), tmp_path / "kept"
+    proof.write_text("mine")
+    solid = impinge.Scene.from_json(
+        '{"bodies":[{"name":"a","solid":true,"surfaces":[{"type":"sphere"}]},'
+        '{"name":"b","surfaces":[{"type":"sphere","center":[3,0,0]}]}]}')
+    with pytest.raises(impinge.UsageError, match="a body is solid"):
+        solid.solve(proof=proof)
+    swept = impinge.Scene.from_json(
+        '{"parameters":{"q":[0,1]},"bodies":[{"name":"a","surfaces":[{"type":"sphere"}],'
+        '"maps":[{"type":"translate","velocity":[1,0,0],"clock":"q"}]},'
+        '{"name":"b","surfaces":[{"type":"sphere","center":[5,0,0]}]}]}')
+    for ask in (swept.solve, swept.clearance):
+        with pytest.raises(impinge.UsageError, match=r"proof: .* ask scene.at"):
+            ask(proof=proof)
+    with pytest.raises(impinge.UsageError, match="proof"):
+        scene.solve(proof=5)
+    assert proof.read_text() == "mine"
+    with pytest.raises(impinge.FileError, match="cannot be written"):
+        scene.solve(gamma=1e-3, proof=tmp_path / "none" / "x")
+    swept.at({"q": 0.5}).solve(gamma=1e-3, proof=proof)
+    assert proof.read_bytes().startswith(b"impinge certificate 1\n")

@@ -25,6 +25,8 @@ def answers(scene: impinge.Scene) -> Optional[float]:
     scene.clearance(requierd=2)  # type: ignore[call-arg]
     scene.set_values("a", {"radius": 2}, surface=0, map=None)
     scene.set_values("a", {"radius": 2}, surfaces=0)  # type: ignore[call-arg]
+    scene.solve(gamma=1e-3, proof=pathlib.Path("a.proof"))
+    scene.clearance(proof=2)  # type: ignore[arg-type]
     scene.solve(max_pears=2)  # type: ignore[call-arg]
     scene.solve(max_pairs="2")  # type: ignore[arg-type]
     profile = scene.profile(10, progress=lambda progress: progress.pairs < 1000)

@@ -228,6 +228,8 @@ PARAMETER_FILE = 1 << 4  # IMP_PARAMETER_FILE
 _P, _S, _D, _N = c.c_void_p, c.c_char_p, c.c_double, c.c_size_t
 _E, _A = c.POINTER(Error), c.POINTER(Argument)
 
+ProofSink = c.CFUNCTYPE(None, _P, _P, _N)  # imp_proof_sink
+
 # Name: result, arguments.
 _FUNCTIONS = {
     "imp_version": (_S,),
@@ -291,6 +293,9 @@ _FUNCTIONS = {
     "imp_clearance_count": (_N, _P),
     "imp_clearance_get": (c.c_int, _P, _N, _P, _E),
     "imp_query_step": (c.c_int, _P, c.c_uint64, _E),
+    "imp_query_keep_proof": (c.c_int, _P, _E),
+    "imp_query_write_proof": (c.c_int, _P, _S, ProofSink, _P, _E),
+    "imp_scene_sources": (_P, _P, _E),
     "imp_query_free": (None, _P),
 }
 

@@ -5,7 +5,7 @@
 
 import ctypes as c
 from time import monotonic
-from typing import Any, Callable, Iterator, NamedTuple, Optional, Sequence, Tuple
+from typing import Any, Callable, Iterator, List, NamedTuple, Optional, Sequence, Tuple
 
 import numpy
 from numpy.typing import NDArray
@@ -192,6 +192,28 @@ class Query:
         """At a smaller gamma."""
         error = lib.Error()
         check(lib.library.imp_query_refine(self._address, gamma, -1, c.byref(error)), error)
+
+    # --- Proof ----------------------------------------------------------------------------------
+
+    def keep_proof(self) -> None:
+        """Before the first step: keeps what its certificate needs."""
+        error = lib.Error()
+        check(lib.library.imp_query_keep_proof(self._address, c.byref(error)), error)
+
+    def certificate(self, source: Optional[str]) -> bytes:
+        """The certificate of its answer. `source`: SHA-256 of the scene's file, if it is of one."""
+        parts: List[bytes] = []
+        error = lib.Error()
+        address = lib.library.imp_scene_sources(self._scene.address, c.byref(error))
+        if not address:
+            check(error.code, error)
+        stated = c.string_at(address)
+        lib.free(address)
+        if source is not None:
+            stated = b"scene " + source.encode() + b"\n" + stated
+        sink = lib.ProofSink(lambda _, data, size: parts.append(c.string_at(data, size)))
+        check(lib.library.imp_query_write_proof(self._address, stated, sink, None, c.byref(error)), error)
+        return b"".join(parts)
 
     # --- Clearance ------------------------------------------------------------------------------
 

@@ -6,6 +6,7 @@
 import ctypes as c
 import os
 from dataclasses import replace
+from hashlib import sha256
 from typing import Any, Dict, Iterable, Iterator, List, Mapping, Optional, Sequence, Tuple, Type, TypeVar, cast
 
 import numpy
@@ -41,16 +42,23 @@ class Scene:
     question, as "undecided", by returning False. An exception that it raises, or Ctrl-C, ends the
     question. Wrong arguments are a `UsageError`, which names them.
 
+    `proof=PATH` writes a certificate of the answer, which `impinge-verify PATH [SCENE]` proves again from
+    the surfaces' formulas alone; the search keeps a part of what lies between `gamma_clear` and `gamma` as
+    room for it. The file appears whole or not at all. There is none of solid bodies, nor over parameters.
+
     Of a scene with `parameters` (their ranges, by name) every question is about all values at once, and
     answers name the values of what they found; `at` makes the scene at values."""
 
     bodies: Tuple[str, ...]
     parameters: Dict[str, Tuple[float, float]]
     _posed: Optional[Tuple["Scene", Tuple[float, ...]]] = None  # of whom it is `at` these values
+    _source: Optional[str] = None  # SHA-256 of the file that it is as it is
 
     def __init__(self, path: values.Path):
         name = values.path("path", path)
-        self._begin_text(_files.read(name), name)
+        data = _files.read(name)
+        self._begin_text(data, name)
+        self._source = sha256(data).hexdigest()
 
     def _begin(self, handle: Handle) -> None:
         self._handle = handle
@@ -72,7 +80,10 @@ class Scene:
     def from_file(cls: Type[AnyScene], path: values.Path) -> AnyScene:
         """A scene file, as by `Scene(path)`."""
         name = values.path("path", path)
-        return cls._from_text(_files.read(name), name)
+        data = _files.read(name)
+        scene = cls._from_text(data, name)
+        scene._source = sha256(data).hexdigest()
+        return scene
 
     @classmethod
     def _from_text(cls: Type[AnyScene], data: bytes, name: str) -> AnyScene:
@@ -115,7 +126,7 @@ class Scene:
         return copied
 
     def __getstate__(self) -> Dict[str, Any]:
-        return {**self.__dict__, "_handle": None if self._posed is not None else self.to_json()}
+        return {**self.__dict__, "_source": None, "_handle": None if self._posed is not None else self.to_json()}
 
     def __setstate__(self, state: Dict[str, Any]) -> None:
         self.__dict__.update(state)
@@ -265,19 +276,35 @@ class Scene:
               gamma_clear: Optional[float] = None, max_pairs: Optional[int] = None,
               max_seconds: Optional[float] = None, max_bytes: Optional[int] = None,
               audit: Optional[bool] = None, progress: Optional[ProgressSink] = None,
-              threads: Optional[int] = None) -> Result:
+              threads: Optional[int] = None, proof: Optional[values.Path] = None) -> Result:
         """The earliest contact over the scene's time, or `time`: two points no farther apart than `gamma`.
         Nothing nearer than `gamma_clear` is missed. Trees of surfaces are built, and bodies sorted out, by
-        so many threads (one); the answer is the same."""
+        so many threads (one); the answer is the same. `proof`: where a certificate is written."""
         settings = Settings(time, gamma, gamma_clear, max_pairs, max_seconds, max_bytes, audit, progress,
                             threads)
+        wanted = self._proof_path(proof)
         if self.parameters:
             with Survey(self._handle, settings) as survey:
                 state = survey.run()
                 return replace(result_of(self.bodies, survey.result()), parameters=state.values,
                                proved=state.proved)
         with Query(self._handle, settings) as query:
-            return result_of(self.bodies, query.step())
+            return result_of(self.bodies, self._step(query, wanted))
+
+    def _proof_path(self, proof: Optional[values.Path]) -> Optional[str]:
+        if proof is not None and self.parameters:
+            raise UsageError("proof: the scene has parameters, and certificates are about one value of each; "
+                             "ask scene.at({...}) for one")
+        return None if proof is None else values.path("proof", proof)
+
+    def _step(self, query: Query, proof: Optional[str]) -> lib.Result:
+        """Finds the answer, and writes its certificate there."""
+        if proof is not None:
+            query.keep_proof()
+        answer = query.step()
+        if proof is not None:
+            _files.write(proof, query.certificate(None if self._handle.changes else self._source))
+        return answer
 
     def solve_each(self, *, time: Optional[Sequence[float]] = None, gamma: Optional[float] = None,
                    gamma_clear: Optional[float] = None, max_pairs: Optional[int] = None,
@@ -352,20 +379,22 @@ class Scene:
                   max_pairs: Optional[int] = None, max_seconds: Optional[float] = None,
                   max_bytes: Optional[int] = None, audit: Optional[bool] = None,
                   progress: Optional[ProgressSink] = None,
-                  threads: Optional[int] = None) -> Clearance:
+                  threads: Optional[int] = None, proof: Optional[values.Path] = None) -> Clearance:
         """The minimum distance of all bodies over the interval; is the `required` one kept? With
         `required` and no `tolerance` the search ends as soon as that is known. Without, it ends when
         upper - lower is at most `tolerance` (1e-3) times upper. At `gamma` bodies touch. Trees of
-        surfaces are built, and bodies sorted out, by so many threads (one); the answer is the same."""
+        surfaces are built, and bodies sorted out, by so many threads (one); the answer is the same.
+        `proof`: where a certificate is written."""
         settings = Settings(time, gamma, None, max_pairs, max_seconds, max_bytes, audit, progress,
                             threads)
+        path = self._proof_path(proof)
         if self.parameters:
             with Survey(self._handle, settings, Wanted(required, tolerance)) as survey:
                 state = survey.run()
                 return replace(clearance_of(self.bodies, survey.clearance()), parameters=state.values,
                                proved=state.proved)
         with Query(self._handle, settings, Wanted(required, tolerance)) as query:
-            query.step()
+            self._step(query, path)
             return clearance_of(self.bodies, query.clearance(0))
 
     def each(self, *, required: Optional[float] = None, tolerance: Optional[float] = None,
