@@ -280,6 +280,9 @@ tools_impinge_verify_SOURCES = \
     tools/cli/output_file.c tools/cli/output_file.h \
     tools/cli/output_target.c tools/cli/output_target.h \
     tools/verify/complain.c \
+    tools/verify/coq.c tools/verify/coq.h \
+    tools/verify/coq_term.c tools/verify/coq_term.h \
+    tools/verify/coq_text.c tools/verify/coq_text.h \
     tools/verify/main.c \
     tools/verify/receipt.c tools/verify/receipt.h \
     tools/verify/rewrite.c tools/verify/rewrite.h \

@@ -182,6 +182,48 @@ sealed() {
     [[ $output == *"/dev/full: No space left on device"* ]]
 }
 
+# A bicubic patch and a torus that turns, of some ninety leaves.
+patch_certificate() {
+    "$IMPINGE" clearance 'bezier degree=3,3 points=[[0,0,0],[0,1,0.3],[0,2,0],[0,3,0],[1,0,0],[1,1,0.5],[1,2,0],[1,3,0],[2,0,0],[2,1,0.2],[2,2,0],[2,3,0],[3,0,0],[3,1,0],[3,2,0],[3,3,0]]' \
+        'torus major_radius=1 minor_radius=.3 center=0,0,2 ! rotate axis=1,0,0 rate=2' \
+        --tolerance 0.2 --proof patch.proof
+}
+
+@test "--coq draws leaves, the same for one seed" {
+    patch_certificate
+    run -0 verify patch.proof --coq some.v --goals 5
+    [[ ${lines[-1]} == "goals: 5 of the "*" leaves that Coq can be told, of "* ]]
+    [ "$(grep -c '^Theorem' some.v)" -eq 5 ]
+    [ "$(grep -c '^Lemma leaf' some.v)" -eq 10 ]
+    verify patch.proof --coq same.v --goals 5
+    cmp some.v same.v
+    verify patch.proof --coq other.v --goals 5 --seed 2
+    run -1 cmp -s some.v other.v
+    run -0 verify patch.proof --coq all.v --goals 1000 --quiet
+    [ "$output" = holds ]
+    [ "$(grep -c '^Theorem' all.v)" -eq "$(verify --text patch.proof | grep -c '^leaf')" ]
+    sealed patch.proof false 's/^apart .*/apart 3/'
+    run -1 verify false --coq none.v
+    [ ! -e none.v ]
+    run -2 verify patch.proof --coq none.v --tighten none.proof
+    run -2 verify patch.proof --coq none.v --goals 0
+    run -2 verify patch.proof --coq patch.proof
+}
+
+@test "Coq proves 20 leaves, and none that was made false" {
+    command -v coqc >/dev/null || skip "no coqc (coq, libcoq-interval)"
+    echo 'From Interval Require Import Tactic.' >there.v
+    coqc there.v || skip "no library Interval of Coq (libcoq-interval)"
+    patch_certificate
+    verify patch.proof --coq patch.v --goals 20
+    [ "$(grep -c '^Theorem' patch.v)" -eq 20 ]
+    coqc patch.v
+    sed '0,/ <= (\?[0-9/^ ]*)\?\.$/s// <= (-1000000000)./' patch.v >wrong.v
+    run -1 cmp -s patch.v wrong.v
+    run -1 coqc wrong.v
+    [[ $output == *"Numerical evaluation failed to conclude"* ]]
+}
+
 @test "--text prints the tree, and bad usage is told" {
     "$IMPINGE" pair sphere "$near" --gamma 1e-2 --proof clear.proof
     run -0 verify --text clear.proof
@@ -190,7 +232,11 @@ sealed() {
     run -2 verify missing.proof
     [[ $output == *"missing.proof: No such file or directory" ]]
     run -2 "$IMPINGE" solve missing.json --each --proof f
-    [[ $output == *"--proof and --each exclude each other"* ]]
+    [[ $output == *"--proof and --each exclude each other, since a certificate is of one answer; leave --each out"* ]]
+    run -2 "$IMPINGE" clearance missing.json --profile 2 --proof f
+    [[ $output == *"--proof and --profile exclude each other"*"give the --time of one slice" ]]
+    run -2 "$IMPINGE" solve missing.json --refine 1e-2 --proof f
+    [[ $output == *"--proof and --refine exclude each other"*"give the last --gamma" ]]
 }
 
 @test "certificates of an arm, of a teapot and a torus, and of meshes that roll by hold" {

@@ -18,6 +18,21 @@ const option options_proof[] = {{.name = "proof",
                                  .help = "write a certificate, which impinge-verify proves again"},
                                 {.name = NULL}};
 
+exit_status proof_output_check(const arguments *args)
+{
+    static const char *const others[][2] = {
+        {"each", "leave --each out: it is about all bodies"},
+        {"refine", "leave --refine out, and give the last --gamma"},
+        {"profile", "leave --profile out, and give the --time of one slice"}};
+    for (size_t k = 0; k < sizeof others / sizeof *others; ++k)
+        if (arguments_option(args, "proof") != NULL && arguments_option(args, others[k][0]) != NULL)
+            return complain(EXIT_USAGE, args->verb->name,
+                            "--proof and --%s exclude each other, since a certificate is of one "
+                            "answer; %s",
+                            others[k][0], others[k][1]);
+    return EXIT_ANSWERED;
+}
+
 exit_status proof_output_begin(imp_query *query, const arguments *args)
 {
     imp_error error = {0};

@@ -9,6 +9,9 @@
 
 extern const option options_proof[];
 
+/* Complains if --proof is given beside --each, --refine or --profile, and says what to ask in place. */
+exit_status proof_output_check(const arguments *args);
+
 /* Has the query keep a proof if --proof asks for one. */
 exit_status proof_output_begin(imp_query *query, const arguments *args);
 

@@ -8,6 +8,7 @@
 #include <stdlib.h>
 
 #include "tools/cli/output.h"
+#include "tools/cli/proof_output.h"
 #include "tools/cli/query.h"
 #include "tools/cli/result.h"
 #include "tools/cli/verbs.h"
@@ -48,9 +49,8 @@ exit_status series_check(const arguments *args)
     if ((each || refine != NULL) && arguments_option(args, "explain") != NULL)
         return complain(EXIT_USAGE, speaker, "--%s and --explain exclude each other",
                         each ? "each" : "refine");
-    if (arguments_option(args, "proof") != NULL && (each || refine != NULL))
-        return complain(EXIT_USAGE, speaker, "--proof and --%s exclude each other",
-                        each ? "each" : "refine");
+    const exit_status proof = proof_output_check(args);
+    if (proof != EXIT_ANSWERED) return proof;
     if (refine == NULL) return EXIT_ANSWERED;
     if (each) return complain(EXIT_USAGE, speaker, "--each and --refine exclude each other");
     const char *const excluded[] = {"gamma", "gamma-clear"};

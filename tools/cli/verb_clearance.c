@@ -32,10 +32,8 @@ static exit_status check(const arguments *args)
     if (profile != NULL && profile->count == 0)
         return complain(EXIT_USAGE, args->verb->name, "--profile must be at least 1, not '%s'",
                         profile->text);
-    if (arguments_option(args, "proof") != NULL &&
-        (profile != NULL || arguments_option(args, "each") != NULL))
-        return complain(EXIT_USAGE, args->verb->name, "--proof and --%s exclude each other",
-                        profile != NULL ? "profile" : "each");
+    const exit_status proof = proof_output_check(args);
+    if (proof != EXIT_ANSWERED) return proof;
     if (profile != NULL && arguments_option(args, "each") != NULL)
         return complain(EXIT_USAGE, args->verb->name, "--each and --profile exclude each other");
     if (arguments_option(args, "over") != NULL && profile == NULL)

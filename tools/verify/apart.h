@@ -28,6 +28,8 @@ typedef struct prover {
     size_t boxes;     /* boxes tested along axes */
     size_t wasted;    /* boxes tested about centres since a centre last proved a cell */
     bool has_guessed; /* in this leaf */
+    cell tried;       /* of the last test, and */
+    aim aim;          /* what it tried there, for A */
     cell worst;       /* where it ended, and */
     double found;     /* what was found there: two points so near, or INFINITY: nothing but */
     const char *why;  /* this */

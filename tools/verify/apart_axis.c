@@ -75,6 +75,8 @@ static apart_outcome try_aims(prover *p, const cell *c, const aim a[2], double c
                               apart_trial *tried)
 {
     const double limit = ld_interval_mul(ld_interval_of(change_upper), ld_interval_of(p->apart)).hi;
+    p->tried = *c;
+    p->aim = a[0];
     for (int side = 0; side < 2; ++side) {
         p->areas[side].count = 0;
         p->areas[side].memory = p->kept;

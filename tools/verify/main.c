@@ -4,6 +4,7 @@
 
 #include <errno.h>
 #include <getopt.h>
+#include <limits.h>
 #include <stdlib.h>
 #include <string.h>
 
@@ -12,6 +13,8 @@
 
 /* impinge-verify: proves a certificate again (core/CERTIFICATE.md). It loads no shared object and
  * trusts nothing in the file. */
+
+enum { GOALS_MAX = 100000 };
 
 /* --- The answer ------------------------------------------------------------------------------- */
 
@@ -69,6 +72,9 @@ static int usage(FILE *to)
           "  --threads N   processes that prove at once (1)\n"
           "  --effort N    tests that one leaf may take (20000)\n"
           "  --tighten OUT write a shorter certificate of the same claim\n"
+          "  --coq OUT     write leaves as goals for Coq's tactic interval\n"
+          "  --goals N     so many (20), drawn at random\n"
+          "  --seed N      with this seed (1)\n"
           "  --plugin-path DIR[:DIR...]\n"
           "                look for the plugins that SCENE was solved with there first\n"
           "  --quiet       one line\n"
@@ -88,15 +94,13 @@ static bool read_count(const char *text, unsigned long most, unsigned long *n)
 /* Returns an exit status, or -1: go on. */
 static int read_arguments(int argc, char **argv, request *asked)
 {
-    static const struct option options[] = {{"text", no_argument, NULL, 't'},
-                                            {"threads", required_argument, NULL, 'j'},
-                                            {"effort", required_argument, NULL, 'e'},
-                                            {"tighten", required_argument, NULL, 'w'},
-                                            {"plugin-path", required_argument, NULL, 'p'},
-                                            {"quiet", no_argument, NULL, 'q'},
-                                            {"help", no_argument, NULL, 'h'},
-                                            {"version", no_argument, NULL, 'v'},
-                                            {NULL, 0, NULL, 0}};
+    static const struct option options[] = {
+        {"text", no_argument, NULL, 't'},         {"threads", required_argument, NULL, 'j'},
+        {"effort", required_argument, NULL, 'e'}, {"tighten", required_argument, NULL, 'w'},
+        {"coq", required_argument, NULL, 'c'},    {"goals", required_argument, NULL, 'g'},
+        {"seed", required_argument, NULL, 's'},   {"plugin-path", required_argument, NULL, 'p'},
+        {"quiet", no_argument, NULL, 'q'},        {"help", no_argument, NULL, 'h'},
+        {"version", no_argument, NULL, 'v'},      {NULL, 0, NULL, 0}};
     unsigned long n;
     for (int c; (c = getopt_long(argc, argv, "", options, NULL)) != -1;) {
         if (c == 'h') return usage(stdout);
@@ -105,8 +109,13 @@ static int read_arguments(int argc, char **argv, request *asked)
             asked->text = true;
         else if (c == 'q')
             asked->quiet = true;
-        else if (c == 'w')
-            asked->tightened = optarg;
+        else if ((c == 'w' || c == 'c') && asked->output == NULL) {
+            asked->output = optarg;
+            asked->is_coq = c == 'c';
+        } else if (c == 'g' && read_count(optarg, GOALS_MAX, &n))
+            asked->goals = n;
+        else if (c == 's' && read_count(optarg, ULONG_MAX, &n))
+            asked->seed = n;
         else if (c == 'p')
             asked->plugin_path = optarg;
         else if (c == 'j' && read_count(optarg, THREADS_MAX, &n))
@@ -119,36 +128,43 @@ static int read_arguments(int argc, char **argv, request *asked)
     if (argc - optind < 1 || argc - optind > 2) return usage(stderr);
     asked->path = argv[optind];
     asked->scene = argc - optind == 2 ? argv[optind + 1] : NULL;
-    if (strcmp(asked->path, "-") == 0 || asked->tightened != NULL) asked->threads = 1;
+    if (strcmp(asked->path, "-") == 0 || asked->output != NULL) asked->threads = 1;
     return -1;
 }
 
-/* Proves what has been written like any certificate, and puts it in its place. */
-static int finish(const request *asked, const outcome *before)
+/* Proves a certificate that has been written like any. */
+static bool prove_draft(const request *asked, outcome *found)
 {
     request again = *asked;
     statement s;
-    outcome all;
     input in;
-    memset(&all, 0, sizeof all);
     again.rewrite = NULL;
     again.text = false;
-    bool good = rewrite_end(asked->rewrite);
-    if (good) {
-        input_begin(&in, asked->rewrite->draft);
-        run_verify(&again, &in, &s, 0, &all);
-        statement_free(&s);
-        good = !all.refused;
-        if (!good)
-            fprintf(stderr, "impinge-verify: %s: not written: %s\n", asked->rewrite->path,
-                    all.text);
-    }
-    if (!rewrite_finish(asked->rewrite, good) || !good) return USAGE;
-    if (!asked->quiet)
+    input_begin(&in, asked->rewrite->draft);
+    run_verify(&again, &in, &s, 0, found);
+    statement_free(&s);
+    if (found->refused)
+        fprintf(stderr, "impinge-verify: %s: not written: %s\n", asked->rewrite->path, found->text);
+    return !found->refused;
+}
+
+/* Puts what has been written in its place. */
+static int finish(const request *asked, const outcome *before)
+{
+    rewrite *r = asked->rewrite;
+    outcome after;
+    memset(&after, 0, sizeof after);
+    const bool good = r->is_ended && (r->is_coq || prove_draft(asked, &after));
+    if (!rewrite_finish(r, good) || !good) return USAGE;
+    if (!asked->quiet && r->is_coq)
+        printf("goals: %llu of the %llu leaves that Coq can be told, of %llu\n",
+               (unsigned long long)r->leaves, (unsigned long long)r->known,
+               (unsigned long long)before->leaves);
+    if (!asked->quiet && !r->is_coq)
         printf("tightened: %llu leaves to %llu, %llu tests to %llu, %llu bytes to %ld\n",
-               (unsigned long long)before->leaves, (unsigned long long)all.leaves,
-               (unsigned long long)before->tests, (unsigned long long)all.tests,
-               (unsigned long long)before->bytes, asked->rewrite->size);
+               (unsigned long long)before->leaves, (unsigned long long)after.leaves,
+               (unsigned long long)before->tests, (unsigned long long)after.tests,
+               (unsigned long long)before->bytes, r->size);
     return HOLDS;
 }
 
@@ -168,12 +184,12 @@ static int answer(const request *asked)
 
 int main(int argc, char **argv)
 {
-    request asked = {.threads = 1, .effort = 20000};
-    rewrite written = {.path = NULL};
+    request asked = {.threads = 1, .effort = 20000, .goals = 20, .seed = 1};
     const int read = read_arguments(argc, argv, &asked);
     if (read >= 0) return read;
-    if (asked.tightened != NULL) {
-        if (!rewrite_begin(&written, asked.tightened, asked.path)) return USAGE;
+    rewrite written = {.is_coq = asked.is_coq, .goals = asked.goals, .seed = asked.seed};
+    if (asked.output != NULL) {
+        if (!rewrite_begin(&written, asked.output, asked.path)) return USAGE;
         asked.rewrite = &written;
     }
     const int status = answer(&asked);

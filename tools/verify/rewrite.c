@@ -39,18 +39,25 @@ bool rewrite_begin(rewrite *r, const char *path, const char *certificate)
 
 bool rewrite_watch(rewrite *r, walk *w)
 {
-    r->tighten = tighten_begin(w, r->draft);
-    return r->tighten != NULL || input_refuse(w->in, "memory ran out");
+    if (r->is_coq)
+        r->coq = coq_begin(w, r->goals, r->seed);
+    else
+        r->tighten = tighten_begin(w, r->draft);
+    return r->tighten != NULL || r->coq != NULL || input_refuse(w->in, "memory ran out");
 }
 
 bool rewrite_end(rewrite *r)
 {
-    const bool good = tighten_end(r->tighten, &r->leaves);
-    tighten_free(r->tighten);
-    r->tighten = NULL;
+    bool good = true;
+    if (r->is_coq)
+        r->leaves = coq_write(r->coq, r->draft, &r->known);
+    else
+        good = tighten_end(r->tighten, &r->leaves);
+    good = good && fflush(r->draft) == 0 && !ferror(r->draft);
     r->size = ftell(r->draft);
     rewind(r->draft);
-    return (good && r->size >= 0) || complained("a temporary file", strerror(errno));
+    r->is_ended = good && r->size >= 0;
+    return r->is_ended || complained("a temporary file", strerror(errno));
 }
 
 bool rewrite_finish(rewrite *r, bool keep)
@@ -59,6 +66,7 @@ bool rewrite_finish(rewrite *r, bool keep)
     size_t n;
     if (r->path == NULL) return true;
     tighten_free(r->tighten);
+    coq_free(r->coq);
     rewind(r->draft);
     while (keep && (n = fread(some, 1, sizeof some, r->draft)) > 0)
         fwrite(some, 1, n, r->out.file); /* output_file_end looks for failures */

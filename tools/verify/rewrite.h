@@ -4,6 +4,7 @@
 #define TOOLS_VERIFY_REWRITE_H
 
 #include "tools/cli/output_file.h"
+#include "tools/verify/coq.h"
 #include "tools/verify/tighten.h"
 
 /* A file that is written while a certificate is proved
@@ -14,9 +15,15 @@ typedef struct rewrite {
     const char *path;    /* of the output; NULL: nothing is written */
     FILE *draft;         /* what is written meanwhile */
     output_file out;     /* locked meanwhile */
+    bool is_coq;         /* goals for Coq; else a shorter certificate */
+    size_t goals;        /* of these, */
+    uint64_t seed;       /* drawn with this */
     tightening *tighten; /* made by rewrite_watch */
+    coq *coq;            /* or this */
     uint64_t leaves;     /* written */
+    uint64_t known;      /* leaves that Coq can be told */
     long size;           /* bytes written */
+    bool is_ended;       /* by rewrite_end: the draft is whole */
 } rewrite;
 
 /* Opens the output. False: it cannot be written, or is the certificate itself; complained of. */
@@ -25,7 +32,8 @@ bool rewrite_begin(rewrite *r, const char *path, const char *certificate);
 /* Has the walk, whose input nothing has been read of, write. False: the input tells why. */
 bool rewrite_watch(rewrite *r, walk *w);
 
-/* Ends what is written, from the beginning of which the draft can be read then. */
+/* Ends what is written while the statement is still there; the draft can be read then. False:
+ * complained of. */
 bool rewrite_end(rewrite *r);
 
 /* Puts the file in its place if `keep`; else nothing is left of it. */

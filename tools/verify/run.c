@@ -48,6 +48,7 @@ void run_verify(const request *asked, input *in, statement *s, unsigned share, o
     w.assumed = good ? calloc(s->stage_count + 1, sizeof *w.assumed) : NULL;
     if (good && w.assumed == NULL) good = input_refuse(in, "memory ran out");
     good = good && (share > 0 || walk_points(&w)) && walk_trees(&w);
+    if (good && asked->rewrite != NULL) rewrite_end(asked->rewrite);
     if (w.progress != NULL) fprintf(stderr, "\r                        \r");
     *found = (outcome){!good, in->fault_at, in->at, w.leaves, w.pairs, w.tests, "", ""};
     memcpy(found->text, in->fault, sizeof found->text);

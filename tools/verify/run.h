@@ -10,7 +10,10 @@
 enum { THREADS_MAX = 256 };
 
 typedef struct request {
-    const char *path, *scene, *plugin_path, *tightened;
+    const char *path, *scene, *plugin_path;
+    const char *output; /* of --tighten or --coq; NULL: none */
+    bool is_coq;
+    unsigned long goals, seed;
     unsigned threads;
     unsigned long effort;
     bool text, quiet;
