@@ -9,7 +9,8 @@
 
 extern const option options_proof[];
 
-/* Complains if --proof is given beside --each, --refine or --profile, and says what to ask in place. */
+/* Complains if --proof is given beside --each, --refine or --profile, and says what to ask
+ * instead. */
 exit_status proof_output_check(const arguments *args);
 
 /* Has the query keep a proof if --proof asks for one. */
