@@ -74,21 +74,27 @@ static imp_model cone_beyond(const capped *s, const imp_model m[3])
 }
 
 /* Lemma. Let e be a vector across the axis, |e| = 1 up to 4 u, f the same turned by a quarter, and
- * p = e.(x, y), s = f.(x, y). Then |e| q = (p^2 + s^2)^(1/2), and where p > 0
+ * p = e.(x, y), s = f.(x, y). Then |e| q = (p^2 + s^2)^(1/2), which is from p to |p| + |s|, at most
+ * 2 max(-p, 0) + |s| above p; and where p > 0
  *
  *   p + s^2 / (2 p) - s^4 / (8 p^3) <= |e| q <= p + s^2 / (2 p).
  *
- * On a line through the axis s is 0, and q exact. */
-static imp_model across_near(imp_model p, imp_model s)
+ * On a line through the axis s is 0, and q exact up to the line's end at the axis. `beyond` is the
+ * second bound of |e| q - p. */
+static imp_model across_near(imp_model p, imp_model s, double beyond)
 {
     const double most = imp_interval_mag(imp_model_range(&s)), least = p.lo;
-    const double ratio = most / least, slack = 0.125 * ratio * ratio * ratio * most;
-    const imp_model half = imp_scale(imp_div(imp_sqr(s), p), 0.5);
-    const imp_model q = imp_add(imp_add(p, half), imp_between(-imp_round_up(2 * slack), 0));
+    imp_model q = imp_add(p, imp_between(0, beyond));
+    if (least > 0 && most <= least) {
+        const double ratio = most / least, slack = 0.125 * ratio * ratio * ratio * most;
+        const imp_model half = imp_scale(imp_div(imp_sqr(s), p), 0.5);
+        q = imp_add(imp_add(p, half), imp_between(-imp_round_up(2 * slack), 0));
+    }
     return imp_mul(q, imp_between(1 - 0x1p-50, 1 + 0x1p-50));
 }
 
-/* Like cone_beyond, for points that stay on one side of axis and apex. False: they do not. */
+/* Like cone_beyond, by ||h| q - r y| / L itself, for points that stay on one side of the axis or
+ * come to it on a line, up to rounding. False: they do not. */
 static bool cone_near(const capped *s, const imp_model m[3], imp_model *gap)
 {
     const double h = s->height, r = s->radius;
@@ -98,10 +104,12 @@ static bool cone_near(const capped *s, const imp_model m[3], imp_model *gap)
     const imp_model p = imp_add(imp_scale(m[0], e[0]), imp_scale(m[1], e[1]));
     const imp_model t = imp_sub(imp_scale(m[1], e[0]), imp_scale(m[0], e[1]));
     const imp_model y = h > 0 ? imp_shift(imp_neg(m[2]), h) : imp_shift(m[2], -h);
-    if (!(p.lo > 0 && imp_interval_mag(imp_model_range(&t)) <= p.lo && y.lo >= 0)) return false;
+    const double most = imp_interval_mag(imp_model_range(&t));
+    const double beyond = imp_sum_up(2 * imp_larger(-p.lo, 0) + most);
+    if (!((p.lo > 0 && most <= p.lo) || beyond <= 0x1p-40 * size)) return false;
     const double slant = greatest_root_upper(
         &(imp_model){.hi = imp_round_up(imp_round_up(h * h) + imp_round_up(r * r))});
-    const imp_model apart = imp_sub(imp_scale(across_near(p, t), fabs(h)), imp_scale(y, r));
+    const imp_model apart = imp_sub(imp_scale(across_near(p, t, beyond), fabs(h)), imp_scale(y, r));
     *gap = imp_scale(apart, imp_larger(inverse_lower(slant), 0));
     return true;
 }
