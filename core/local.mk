@@ -49,7 +49,7 @@ core_surface = \
     core/surface/surface_distance.c \
     core/surface/surface_include.c core/surface/surface_internal.h \
     core/surface/surface_motion.c core/surface/surface_net.c core/surface/surface_pose.c \
-    core/surface/surface_orbit.c core/surface/surface_pair_slip.c \
+    core/surface/course.h core/surface/surface_course.c core/surface/surface_orbit.c core/surface/surface_pair_slip.c \
     core/surface/surface_rate.c core/surface/surface_slip.c \
     core/surface/time_model.h core/surface/surface_shift.c core/surface/surface_shift.h \
     core/surface/surface_spread.c core/surface/surface_spread.h \
@@ -147,7 +147,8 @@ core_bounds = \
     core/bounds/claim_audit.c core/bounds/claim_audit.h \
     core/bounds/difference.c core/bounds/difference.h \
     core/bounds/distance.c core/bounds/distance.h \
-    core/bounds/distance_sides.c \
+    core/bounds/piece_sides.c core/bounds/piece_sides.h core/bounds/piece_planes.c core/bounds/piece_rings.c \
+    core/bounds/distance_ball.c core/bounds/distance_sides.c \
     core/bounds/fixed_axes.c core/bounds/fixed_axes.h \
     core/bounds/gap_lines.c core/bounds/gap_lines.h \
     core/bounds/gjk.h \

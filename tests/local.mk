@@ -23,6 +23,7 @@ check_suites = \
     tests/unit/test_clearance_required \
     tests/unit/test_clearance_steps \
     tests/unit/test_broad_phase \
+    tests/unit/test_balls \
     tests/unit/test_builder \
     tests/unit/test_contacts \
     tests/unit/test_decimal \
@@ -70,6 +71,7 @@ check_suites = \
     tests/unit/test_pair_heap \
     tests/unit/test_explanation \
     tests/unit/test_pending \
+    tests/unit/test_piece_sides \
     tests/unit/test_pieces \
     tests/unit/test_pipeline \
     tests/unit/test_plugin_parameters \

@@ -69,4 +69,7 @@ static inline double double_above(double x)
 static inline double sum_upper(double x, double y) { return double_above(x + y); }
 static inline double difference_lower(double x, double y) { return -double_above(-(x - y)); }
 
+/* Returns a float above x. */
+static inline float float_upper(double x) { return nextafterf((float)x, INFINITY); }
+
 #endif

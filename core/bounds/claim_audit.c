@@ -173,7 +173,8 @@ imp_code claim_audit_run(const distance_question *q, const imp_model *g, const t
                              draw_within(&state, r->lo[1], r->hi[1]),
                              draw_within(&state, when->lo, when->hi)};
         place at;
-        const double claimed = claimed_lower(g, r, p, distance_slides(q));
+        double claimed = claimed_lower(g, r, p, distance_slides(q));
+        if (q->is_ball) claimed = difference_lower(claimed, q->radius);
         if (!(claimed > 0) || !evaluate(q->a->surface, p, &at)) continue;
         hunt h = {.s = q->b->surface,
                   .from = &at,

@@ -57,7 +57,7 @@ static void bend_of(const imp_model model[3], const imp_region *r, double bend[3
     for (int j = 0; j < 3; ++j) bend[j] = lanes_sum(s.curved[j] + s.blame[j]);
 }
 
-static imp_code fault(const surface *s, imp_status status, imp_error *error)
+imp_code distance_fault(const surface *s, imp_status status, imp_error *error)
 {
     surface_fault(s, error, ": %s", surface_status_message(s, status).text);
     return surface_set_code(status, error);
@@ -95,7 +95,11 @@ static imp_status points_of(const distance_question *q, size_t common, const imp
     const node *a = q->a;
     imp_model way[3];
     imp_status status;
-    if (!distance_slides(q) && q->held == 0) {
+    if (q->is_ball) {
+        double radius;
+        status = surface_ball(a->surface, over, point, &radius);
+        if (status == IMP_STATUS_OK && !(radius <= q->radius)) return IMP_STATUS_UNBOUNDED;
+    } else if (!distance_slides(q) && q->held == 0) {
         status = points_before(a, common, point);
     } else {
         /* A cluster's models include the common maps; pair_look requests none. */
@@ -133,12 +137,13 @@ static imp_code find_distance(const distance_question *q, imp_model *g, double b
     imp_status status = points_of(q, common, &over, point);
     *known = false;
     if (status == IMP_STATUS_UNBOUNDED) return IMP_SUCCESS;
-    if (status != IMP_STATUS_OK) return fault(q->a->surface, status, error);
-    if (distance_slides(q) || q->is_carried || common > 0) bend_of(point, &over, bend);
+    if (status != IMP_STATUS_OK) return distance_fault(q->a->surface, status, error);
+    const bool is_other = q->is_ball || distance_slides(q) || q->is_carried || common > 0;
+    if (is_other) bend_of(point, &over, bend);
     status = distance_of(q, common, point, g);
     *known = status == IMP_STATUS_OK;
     if (status == IMP_STATUS_OK || status == IMP_STATUS_UNBOUNDED) return IMP_SUCCESS;
-    return fault(q->b->surface, status, error);
+    return distance_fault(q->b->surface, status, error);
 }
 
 /* --- Cutting the window ----------------------------------------------------------------------- */
@@ -270,20 +275,27 @@ static bool is_within_itself(const distance_question *q)
     return distance_slides(q) || q->a->region.lo[PARAMETER_T] == q->a->region.hi[PARAMETER_T];
 }
 
-/* Cuts the window by g and returns what g shows over it. */
+/* Returns what remainder and rounding take away. */
+static double slack_of(const imp_model *g, double size)
+{
+    return padded_upper(g->e + size * (DISTANCE_ROUNDING * UNIT_ROUNDOFF), 16) +
+           QUADRATIC_UNDERFLOW;
+}
+
+/* Cuts the window by g and returns what g shows over it: of a ball, of its center. */
 static void cut_by(const distance_question *q, const imp_model *g, time_window *window,
                    distance_view *view)
 {
     const node *a = q->a;
-    const double gamma_clear = q->gamma_clear, range = range_lower(g);
+    const double gamma_clear = q->is_ball ? sum_upper(q->gamma_clear, q->radius) : q->gamma_clear;
+    const double range = range_lower(g);
     if (range > 0) view->lower = range;
     view->is_apart = range > gamma_clear;
     const double size = size_upper(g);
     if (view->is_apart || !(size < 0x1p400)) return;
     const span whole = span_of(window);
     const sides both = sides_of(g, &a->region, &whole, size);
-    const double slack =
-        padded_upper(g->e + size * (DISTANCE_ROUNDING * UNIT_ROUNDOFF), 16) + QUADRATIC_UNDERFLOW;
+    const double slack = slack_of(g, size);
     const double lower = sides_lower(&both, slack);
     if (lower > view->lower) view->lower = lower;
     w_range s = {-1, 1};
@@ -292,6 +304,26 @@ static void cut_by(const distance_question *q, const imp_model *g, time_window *
     view->is_promising = !view->is_apart && is_worth_halving(g, &both, a, gamma_clear, size,
                                                              is_within_itself(q), q->held != 0);
     if (!view->is_apart) window_cut(window, whole.mid, whole.half, &s);
+}
+
+bool distance_cut_heights(const imp_model *g, int count, const imp_region *r, double gamma_clear,
+                          time_window *window, double *lower)
+{
+    const double size = size_upper(g), range = count > 1 ? range_lower(g) : g->lo;
+    *lower = range > 0 ? range : 0;
+    if (range > gamma_clear) return true;
+    if (!(size < 0x1p400)) return false;
+    const span whole = span_of(window);
+    const sides both = sides_of(g, r, &whole, size);
+    const double slack = slack_of(g, size);
+    w_range s = {-1, 1};
+    for (int k = 0; k < count; ++k) {
+        const double least = both.low[k] - slack - fabs(both.drift[k]);
+        if (least > *lower) *lower = least;
+        if (!w_range_cut(&s, both.low[k] - slack, both.drift[k], gamma_clear)) return true;
+    }
+    window_cut(window, whole.mid, whole.half, &s);
+    return false;
 }
 
 imp_code distance_cut(const distance_question *q, time_window *window, distance_view *view,
@@ -304,6 +336,8 @@ imp_code distance_cut(const distance_question *q, time_window *window, distance_
     const imp_code code = find_distance(q, &g, view->bend, &known, error);
     if (code != IMP_SUCCESS || !known) return code;
     cut_by(q, &g, window, view);
+    if (q->is_ball)
+        view->lower = view->lower > q->radius ? difference_lower(view->lower, q->radius) : 0;
     const bool decides =
         view->is_apart || view->lower > 0 || window->lo > before.lo || window->hi < before.hi;
     const bool is_of_types = q->plane == NULL && q->a->many == NULL;

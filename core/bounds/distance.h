@@ -41,6 +41,8 @@ typedef struct distance_question {
     bool is_carried; /* `slip` is that of surface_carry_slip: a's points are taken at all times, */
     bool is_bare;    /* and b as it is before its maps */
     unsigned held;   /* parameters of a that stay in the middle: bit 0 u, bit 1 v (slip counts) */
+    bool is_ball;    /* the center of the ball that holds a's surface is taken (surface_ball), */
+    double radius;   /* and this ball's radius at all times of a is left out; length */
     bool is_audited; /* check decisive distances at points (claim_audit.h) */
 } distance_question;
 
@@ -58,17 +60,38 @@ bool distance_slides(const distance_question *q);
 imp_code distance_cut(const distance_question *q, time_window *window, distance_view *view,
                       imp_error *error);
 
+/* Cuts the window to the times at which g, a model over the region, is no greater than gamma_clear,
+ * if count is 1, or |g| is, if it is 2. True: at no time, and the window is unchanged. *lower
+ * becomes a bound of g, or |g|, over the window as passed, or 0. */
+bool distance_cut_heights(const imp_model *g, int count, const imp_region *r, double gamma_clear,
+                          time_window *window, double *lower);
+
+/* Sets and returns the error for a status that a callback of the surface returned. */
+imp_code distance_fault(const surface *s, imp_status status, imp_error *error);
+
+/* --- Balls ------------------------------------------------------------------------------------ */
+
+struct distance_sides;
+
+/* Cuts the window by the distance of one side's center from the other's whole surface, where the
+ * side's node is a ball, or such a part of one that has all u and v. The view claims nothing where
+ * it is none, or nothing is known of the other. Errors are those of distance_cut. */
+imp_code distance_cut_ball(const struct distance_sides *of, int side, double gamma_clear,
+                           time_window *window, distance_view *view, imp_error *error);
+
 /* --- Both sides ------------------------------------------------------------------------------- */
 
 /* What is kept of two surfaces, for each of them, so that it is computed once; begins as zeros. The
  * slips are over their common times and rounded up; 0: not computed yet. */
 typedef struct distance_slips {
-    float slip[2];         /* surface_slip along the other */
-    float carry[2];        /* surface_carry_slip of the other, for all points of this one */
-    float orbit[2];        /* surface_orbit_slip along the other, */
-    unsigned char held[2]; /* with the parameters that need not vary then */
-    bool is_bare[2];       /* whether `carry` counts from before the other's maps */
-    signed char orbits[2]; /* surface_has_orbits: 1 true, -1 false, 0 not known yet */
+    float slip[2];          /* surface_slip along the other */
+    float carry[2];         /* surface_carry_slip of the other, for all points of this one */
+    float ball[2];          /* surface_ball_slip along the other */
+    float orbit[2];         /* surface_orbit_slip along the other, */
+    unsigned char held[2];  /* with the parameters that need not vary then */
+    bool is_bare[2];        /* whether `carry` counts from before the other's maps */
+    signed char orbits[2];  /* surface_has_orbits: 1 true, -1 false, 0 not known yet */
+    unsigned char searches; /* in which piece_sides_cut was tried */
 } distance_slips;
 
 /* Two nodes, each of which may be separated from the other's whole surface. */
@@ -88,6 +111,9 @@ typedef struct distance_outcome {
     int side;         /* the side whose node to split; -1: none */
     double bend[3];   /* nonlinear extents of that node in the other's frame, about; length */
 } distance_outcome;
+
+/* Whether maps of the other side rotate its surface, so that distances hold only with a slip. */
+bool distance_is_turned(const distance_sides *of, int side);
 
 /* Returns an outcome that claims nothing. */
 distance_outcome distance_outcome_none(const time_window *window);

@@ -6,18 +6,13 @@
 
 #include <string.h>
 
+#include "core/base/rounding.h"
 #include "core/bounds/strategy.h"
 #include "core/bounds/tuning.h"
 
 distance_outcome distance_outcome_none(const time_window *window)
 {
     return (distance_outcome){*window, false, 0, -1, {0, 0, 0}};
-}
-
-static imp_code fault_of(const surface *s, imp_status status, imp_error *error)
-{
-    surface_fault(s, error, ": %s", surface_status_message(s, status).text);
-    return surface_set_code(status, error);
 }
 
 static imp_region all_of(const time_window *times)
@@ -39,11 +34,11 @@ static imp_code find_slip(const node *own, const node *other, const surface_plan
     const imp_status status = plane == NULL
                                   ? surface_slip(a, b, bare, &all, moment, slip)
                                   : surface_slip_along(a, b, plane, bare, &all, moment, slip);
-    return status == IMP_STATUS_OK ? IMP_SUCCESS : fault_of(b, status, error);
+    return status == IMP_STATUS_OK ? IMP_SUCCESS : distance_fault(b, status, error);
 }
 
 /* Whether maps of the other side rotate its surface, so that distances hold only with a slip. */
-static bool is_turned(const distance_sides *of, int side)
+bool distance_is_turned(const distance_sides *of, int side)
 {
     const surface *own = of->node[side]->surface, *other = of->node[!side]->surface;
     const size_t common = surface_common_maps(own, other);
@@ -72,7 +67,7 @@ static imp_code find_carry(const distance_sides *of, int side, const time_window
     base.is_bare = false;
     if (status == IMP_STATUS_OK && !of->slips->is_bare[side])
         status = surface_carry_slip(other, own->lo, own->hi, &all, &base, slip);
-    return status == IMP_STATUS_OK ? IMP_SUCCESS : fault_of(other, status, error);
+    return status == IMP_STATUS_OK ? IMP_SUCCESS : distance_fault(other, status, error);
 }
 
 /* Finds out which parameters of a side's node need not vary. */
@@ -86,10 +81,8 @@ static imp_code find_orbit(const distance_sides *of, int side, const time_window
     *slip = INFINITY;
     if (!root->bounded || surface_common_maps(a, b) > 0) return IMP_SUCCESS;
     const imp_status status = surface_orbit_slip(a, b, root->lo, root->hi, &all, held, slip);
-    return status == IMP_STATUS_OK ? IMP_SUCCESS : fault_of(b, status, error);
+    return status == IMP_STATUS_OK ? IMP_SUCCESS : distance_fault(b, status, error);
 }
-
-static float float_upper(double x) { return nextafterf((float)x, INFINITY); }
 
 /* Takes it that the other surface moves as its center does, if it does so nearly enough. */
 static imp_code add_carry(const distance_sides *of, int side, const time_window *times,
@@ -158,7 +151,7 @@ static imp_code find_orbits(const distance_sides *of, int side, bool *has, imp_e
     *has = of->takes_orbits && *known > 0;
     if (!of->takes_orbits || *known != 0) return IMP_SUCCESS;
     const imp_status status = surface_has_orbits(own, has);
-    if (status != IMP_STATUS_OK) return fault_of(own, status, error);
+    if (status != IMP_STATUS_OK) return distance_fault(own, status, error);
     if (of->root[side]->many == NULL) *known = *has ? 1 : -1;
     return IMP_SUCCESS;
 }
@@ -177,7 +170,7 @@ static imp_code question_of(const distance_sides *of, int side, double gamma_cle
                              .is_audited = of->is_audited};
     if (!surface_has_symmetry(other->surface)) return IMP_SUCCESS;
     const time_window times = pair_times(of->root[side], of->root[!side]);
-    const bool at_once = times.lo == times.hi, turned = is_turned(of, side);
+    const bool at_once = times.lo == times.hi, turned = distance_is_turned(of, side);
     const bool turns = own->still != NULL || turned;
     bool has_orbits;
     code = find_orbits(of, side, &has_orbits, error);
@@ -245,7 +238,7 @@ static imp_code plan_side(const distance_sides *of, int side, double gamma_clear
     }
     const imp_code code = question_of(of, side, gamma_clear, &plan->q, error);
     plan->is_still = distance_slides(&plan->q) || plan->q.is_carried;
-    plan->is_asked = plan->is_still || !is_turned(of, side);
+    plan->is_asked = plan->is_still || !distance_is_turned(of, side);
     return code;
 }
 
@@ -260,7 +253,7 @@ static imp_code cut_side(const distance_sides *of, int side, const side_plan *pl
 
 /* Lemma. A node's points belong to its whole surface: the distance of one node's points from all of
  * the other surface, or from the plane of its node, is no greater than that of the two nodes. Each
- * side cuts what the other has left. */
+ * side cuts what the other has left, first as a ball. */
 imp_code distance_cut_sides(const distance_sides *of, double gamma_clear, distance_outcome *seen,
                             imp_error *error)
 {
@@ -270,11 +263,12 @@ imp_code distance_cut_sides(const distance_sides *of, double gamma_clear, distan
         if (code != IMP_SUCCESS) return code;
     }
     const int first = plan[1].is_still && !plan[0].is_still ? 1 : 0;
-    for (int k = 0; k < 2 && !seen->is_apart && seen->side < 0; ++k) {
-        const int side = k == 0 ? first : !first;
+    for (int k = 0; k < 4 && !seen->is_apart && seen->side < 0; ++k) {
+        const int side = k % 2 == 0 ? first : !first;
         distance_view view;
         const imp_code code =
-            cut_side(of, side, &plan[side], gamma_clear, &seen->left, &view, error);
+            k < 2 ? distance_cut_ball(of, side, gamma_clear, &seen->left, &view, error)
+                  : cut_side(of, side, &plan[side], gamma_clear, &seen->left, &view, error);
         if (code != IMP_SUCCESS) return code;
         seen->is_apart = view.is_apart;
         if (view.lower > seen->lower) seen->lower = view.lower;

@@ -242,10 +242,6 @@ static impact_state resolution_ends(impact *im, const pair *p)
 
 static imp_code expand_by_models(impact *im, pair *p, impact_state *state, imp_error *error)
 {
-    if (pair_has_cluster(p)) {
-        explanation_count(im, p, IMP_OBSTACLE_SIZE);
-        return split(im, p, cut_by_spread(p, im->gamma, false), NULL, state, error);
-    }
     const time_window before = p->window;
     distance_outcome from_each;
     trial_rate *sliding = im->trials != NULL ? &im->trials[p->candidate_pair].sliding : NULL;
@@ -253,6 +249,11 @@ static imp_code expand_by_models(impact *im, pair *p, impact_state *state, imp_e
                               im->proof != NULL, sliding, &from_each, error);
     if (code == IMP_SUCCESS && from_each.is_apart) pair_note_test(im->proof, p, false);
     if (code != IMP_SUCCESS || from_each.is_apart) return code;
+    if (pair_has_cluster(p)) {
+        p->window = from_each.left;
+        explanation_count(im, p, IMP_OBSTACLE_SIZE);
+        return split(im, p, cut_by_spread(p, im->gamma, false), NULL, state, error);
+    }
     if (witness_is_likely(im, p, &from_each)) {
         witness seen;
         code = find_witness(im, p, true, &seen, error);

@@ -4,6 +4,8 @@
 
 #include "core/solver/pair_step.h"
 
+#include "core/bounds/piece_sides.h"
+
 imp_code pair_measure(const pair *p, const candidate_pair *both, imp_error *error)
 {
     return pair_has_cluster(p) ? IMP_SUCCESS : candidate_pair_measure(both, error);
@@ -31,7 +33,12 @@ imp_code pair_look(const pair *p, candidate_pair *both, double limit, strategy_g
                                .slides = p->slides,
                                .sliding = sliding};
     *seen = distance_outcome_none(&p->window);
-    if (!p->a->bounded || !p->b->bounded || pair_has_cluster(p)) return IMP_SUCCESS;
+    if (!p->a->bounded || !p->b->bounded) return IMP_SUCCESS;
+    if (pair_has_cluster(p)) {
+        const distance_sides sides = sides_of(p, both, keeps_proof);
+        const bool is_first = p->a == sides.root[0] && p->b == sides.root[1];
+        return is_first ? piece_sides_cut(&sides, 1u << goal, limit, seen, error) : IMP_SUCCESS;
+    }
     if (!strategy_takes_distances(p->a, p->b, &signs, goal)) return IMP_SUCCESS;
     const distance_sides sides = sides_of(p, both, keeps_proof);
     const imp_code code = distance_cut_sides(&sides, limit, seen, error);

@@ -30,10 +30,10 @@ static inline resolution resolution_of(double near, double far)
 imp_code pair_measure(const pair *p, const candidate_pair *both, imp_error *error);
 
 /* Computes the distances of the pair's nodes from each other's whole surfaces, if
- * strategy_takes_distances. Nodes farther apart than `limit` do not matter; `sliding` is the
- * candidate pair's count of trials. IMP_ERROR_PLUGIN: a callback breaks the ABI. `keeps_proof`:
- * each pair is to be proved again by one who believes no type's claims of symmetry, so that no
- * point stands for others. */
+ * strategy_takes_distances; of two roots with many pieces, once for each goal, those of the pieces.
+ * Nodes farther apart than `limit` do not matter; `sliding` is the candidate pair's count of
+ * trials. IMP_ERROR_PLUGIN: a callback breaks the ABI. `keeps_proof`: each pair is to be proved
+ * again by one who believes no type's claims of symmetry, so that no point stands for others. */
 imp_code pair_look(const pair *p, candidate_pair *both, double limit, strategy_goal goal,
                    bool keeps_proof, trial_rate *sliding, distance_outcome *seen, imp_error *error);
 

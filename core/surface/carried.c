@@ -90,3 +90,10 @@ imp_status carried_pose(const surface *s, size_t k, const imp_region *times, imp
     if (status == IMP_STATUS_OK && *d > 0) memset(pose->fixed, 0, sizeof pose->fixed);
     return status == IMP_STATUS_OK && !(*d <= 0.5) ? IMP_STATUS_UNBOUNDED : status;
 }
+
+bool carried_exactly(const surface *s)
+{
+    for (size_t k = 0; k < s->map_count; ++k)
+        if (!IMP_OFFERS(s->maps[k].type, rigid) || !map_turns_exactly(&s->maps[k])) return false;
+    return true;
+}

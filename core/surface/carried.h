@@ -30,6 +30,9 @@ bool symmetry_is_sane(const imp_symmetry *found);
  * instance if it has several pieces, each with its own symmetry. */
 imp_status surface_closed_symmetry(const surface *s, imp_symmetry *found);
 
+/* Whether all maps are rigid in exact arithmetic: rotations and shifts. */
+bool carried_exactly(const surface *s);
+
 /* Computes the pose of the surface's map k, and *d >= |R^T R - 1|, which is at most 1/2. */
 imp_status carried_pose(const surface *s, size_t k, const imp_region *times, imp_pose *pose,
                         double *d);

@@ -207,6 +207,19 @@ imp_status surface_orbit_slip(const surface *a, const surface *b, const double l
                               const double hi[3], const imp_region *times, unsigned *held,
                               double *slip);
 
+/* Computes models, over the region's times, of the center of a ball that holds all points of s at
+ * these times. *radius INFINITY: s is not known to be part of a ball. */
+imp_status surface_ball(const surface *s, const imp_region *region, imp_model center[3],
+                        double *radius);
+
+/* Like surface_ball, before the maps, whatever these are. */
+imp_status surface_bare_ball(const surface *s, const imp_region *region, double center[3],
+                             double *radius);
+
+/* Like surface_slip, of the center of the ball. Precondition: surface_ball knows a. */
+imp_status surface_ball_slip(const surface *a, const surface *b, const imp_region *times,
+                             double moment, double *slip);
+
 /* A plane, and an upper bound of the distance from it of the points of a part of a surface, before
  * its maps. */
 typedef struct surface_plane {

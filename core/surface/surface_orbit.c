@@ -18,13 +18,6 @@ typedef struct feature {
     imp_model center[3], axis[3];
 } feature;
 
-static bool maps_are_exact(const surface *s)
-{
-    for (size_t k = 0; k < s->map_count; ++k)
-        if (!IMP_OFFERS(s->maps[k].type, rigid) || !map_turns_exactly(&s->maps[k])) return false;
-    return true;
-}
-
 static imp_status carry(const surface *s, const imp_symmetry *of, const imp_region *times,
                         feature *f)
 {
@@ -107,7 +100,7 @@ imp_status surface_carry_slip(const surface *b, const double lo[3], const double
     feature now, then;
     imp_model turn[3];
     *slip = INFINITY;
-    if (!maps_are_exact(b)) return IMP_STATUS_OK;
+    if (!carried_exactly(b)) return IMP_STATUS_OK;
     imp_status status = surface_symmetry(b, &found);
     if (status == IMP_STATUS_OK) status = carry(b, &found, times, &now);
     if (status == IMP_STATUS_OK) status = base_of(b, &found, base, &then);
@@ -201,7 +194,7 @@ imp_status surface_orbit_slip(const surface *a, const surface *b, const double l
     feature of_a, of_b;
     *held = 0;
     *slip = INFINITY;
-    if (!IMP_OFFERS(a->type, symmetry) || !maps_are_exact(a) || !maps_are_exact(b))
+    if (!IMP_OFFERS(a->type, symmetry) || !carried_exactly(a) || !carried_exactly(b))
         return IMP_STATUS_OK;
     imp_status status = surface_symmetry(a, &own);
     if (status == IMP_STATUS_OK && own.is_closed <= IMP_SYMMETRY_CLOSED) return IMP_STATUS_OK;
@@ -225,4 +218,64 @@ imp_status surface_orbit_slip(const surface *a, const surface *b, const double l
     *slip = along_lines;
     *held = lines;
     return IMP_STATUS_OK;
+}
+
+/* --- Balls ------------------------------------------------------------------------------------ */
+
+/* Lemma. Where all points of the same t are as far from the center (IMP_SYMMETRY_ORBIT_ALL), each
+ * is as far from it as the one in the middle of u and v. The type's own models, whose ranges are
+ * taken, hold that point at all times of the region. */
+imp_status surface_bare_ball(const surface *s, const imp_region *region, double center[3],
+                             double *radius)
+{
+    imp_symmetry found;
+    imp_model x[3];
+    double lo[3], hi[3];
+    *radius = INFINITY;
+    if (!IMP_OFFERS(s->type, symmetry)) return IMP_STATUS_OK;
+    imp_status status = surface_symmetry(s, &found);
+    if (status == IMP_STATUS_OK && (found.is_closed & IMP_SYMMETRY_ORBIT_ALL) == 0)
+        return IMP_STATUS_OK;
+    surface_domain(s, lo, hi);
+    for (int j = 0; j < 2; ++j) lo[j] = hi[j] = 0.5 * lo[j] + 0.5 * hi[j];
+    lo[2] = region->lo[2], hi[2] = region->hi[2];
+    const imp_region middle = region_make(lo, hi);
+    if (status == IMP_STATUS_OK) status = surface_include_bare(s, &middle, x);
+    if (status != IMP_STATUS_OK) return status == IMP_STATUS_UNBOUNDED ? IMP_STATUS_OK : status;
+    for (int i = 0; i < 3; ++i) x[i] = imp_shift(x[i], -found.center[i]);
+    memcpy(center, found.center, sizeof found.center);
+    if (are_finite(x)) *radius = surface_size_upper(x);
+    return IMP_STATUS_OK;
+}
+
+/* Lemma. Exact rotations and shifts keep distances: x, at any time, is within *radius of the center
+ * c that the maps carry. So |x - y| >= |c - y| - *radius for each y. */
+imp_status surface_ball(const surface *s, const imp_region *region, imp_model center[3],
+                        double *radius)
+{
+    imp_symmetry found;
+    feature now;
+    double bare[3], most;
+    *radius = INFINITY;
+    if (!carried_exactly(s)) return IMP_STATUS_OK;
+    imp_status status = surface_bare_ball(s, region, bare, &most);
+    if (status != IMP_STATUS_OK || !(most < INFINITY)) return status;
+    status = surface_symmetry(s, &found);
+    if (status == IMP_STATUS_OK) status = carry(s, &found, region, &now);
+    if (status != IMP_STATUS_OK) return status == IMP_STATUS_UNBOUNDED ? IMP_STATUS_OK : status;
+    memcpy(center, now.center, sizeof now.center);
+    if (are_finite(now.center)) *radius = most;
+    return IMP_STATUS_OK;
+}
+
+imp_status surface_ball_slip(const surface *a, const surface *b, const imp_region *times,
+                             double moment, double *slip)
+{
+    imp_symmetry found;
+    imp_model bare[3];
+    *slip = INFINITY;
+    const imp_status status = surface_symmetry(a, &found);
+    if (status != IMP_STATUS_OK) return status == IMP_STATUS_UNBOUNDED ? IMP_STATUS_OK : status;
+    for (int i = 0; i < 3; ++i) bare[i] = imp_num(found.center[i]);
+    return surface_slip(a, b, bare, times, moment, slip);
 }

@@ -37,12 +37,13 @@ static const bench_method *const all_rates[] = {
 static double pairs_of(const bench_result *result) { return result->rows[0].tally.pairs.mean; }
 
 /* Returns what the last `step` cases cost beyond the `step` before them, over what those cost
- * beyond the `step` before; `end` counts the cases. 1 is a cost like the logarithm. */
+ * beyond the `step` before; `end` counts the cases. 1 is a cost like the logarithm; 0: they cost no
+ * more. */
 static double growth(const bench_result *results, size_t end, size_t step)
 {
     const double last = pairs_of(&results[end - 1]), middle = pairs_of(&results[end - 1 - step]),
                  first = pairs_of(&results[end - 1 - 2 * step]);
-    return (last - middle) / (middle - first);
+    return last > middle ? (last - middle) / (middle - first) : 0;
 }
 
 /* --- figure7: two spheres --------------------------------------------------------------------- */

@@ -1,0 +1,198 @@
+/* SPDX-FileCopyrightText: The Impinge authors
+ * SPDX-License-Identifier: Apache-2.0 */
+#include <config.h>
+
+#include "core/bounds/piece_sides.h"
+
+#include <impinge/model.h>
+#include <stdlib.h>
+
+#include "core/base/rounding.h"
+#include "core/base/status.h"
+
+/* --- The other surface, as planes see it ------------------------------------------------------ */
+
+/* Points such that the least value of n.x at all times of the course, but for its way and what is
+ * left out (lemma below), is that of w.p, w = weights_of(n): the corners where the course does not
+ * spin, and else their places along the line and beside it. */
+typedef struct shadow {
+    vec3 *p;
+    size_t count;
+    double reach; /* >= |x| of each corner, seen from a; length */
+} shadow;
+
+static vec3 seen_by(const surface_course *c, vec3 y)
+{
+    vec3 x;
+    for (int i = 0; i < 3; ++i) x.x[i] = vec3_dot(vec3_from(c->turn[i]), y) + c->shift[i];
+    return x;
+}
+
+static vec3 weights_of(const surface_course *c, vec3 n)
+{
+    if (!c->spins) return n;
+    const vec3 axis = vec3_from(c->axis);
+    return (vec3){{vec3_dot(n, axis), -vec3_norm(vec3_cross(n, axis)), 0}};
+}
+
+static int along_line(const void *x, const void *y)
+{
+    const vec3 *p = x, *q = y;
+    if (p->x[0] != q->x[0]) return p->x[0] < q->x[0] ? -1 : 1;
+    return p->x[1] < q->x[1] ? -1 : p->x[1] > q->x[1];
+}
+
+/* Whether the middle one of three points, ordered along the line, is surely not above the others'
+ * chord. Rounding: 2 of each product and 2 of its factors, 1 of the difference. */
+PAD_COVERS(16, 2 * 2 + 2 + 1);
+static bool is_below(vec3 before, vec3 middle, vec3 after)
+{
+    const vec3 u = vec3_sub(middle, before), v = vec3_sub(after, before);
+    const double rise = u.x[1] * v.x[0], chord = u.x[0] * v.x[1];
+    return chord - rise >= 16 * UNIT_ROUNDOFF * (fabs(rise) + fabs(chord));
+}
+
+/* Keeps the upper hull, but for points in doubt. Lemma. w.p with w[1] <= 0 is no less at a point
+ * than at the better of two others on whose chord, or below, it lies, or at one straight above. */
+static void keep_outer(shadow *s)
+{
+    size_t kept = 0;
+    qsort(s->p, s->count, sizeof *s->p, along_line);
+    for (size_t k = 0; k < s->count; ++k) {
+        const vec3 next = s->p[k];
+        if (kept > 0 && s->p[kept - 1].x[0] == next.x[0]) kept -= 1;
+        while (kept > 1 && is_below(s->p[kept - 2], s->p[kept - 1], next)) kept -= 1;
+        s->p[kept++] = next;
+    }
+    s->count = kept;
+}
+
+static imp_code take_shadow(const piece_course *of, shadow *s, imp_error *error)
+{
+    const surface_course *c = &of->course;
+    const vec3 center = vec3_from(c->center), axis = vec3_from(c->axis);
+    *s = (shadow){.count = 4 * of->other->count};
+    s->p = malloc(s->count * sizeof *s->p);
+    if (s->p == NULL) return error_set_memory(error);
+    for (size_t k = 0; k < s->count; ++k) {
+        const vec3 x = seen_by(c, of->other->of[k / 4][k % 4]), from = vec3_sub(x, center);
+        const double size = vec3_norm(x);
+        s->p[k] =
+            c->spins ? (vec3){{vec3_dot(from, axis), vec3_norm(vec3_cross(from, axis)), 0}} : x;
+        if (size > s->reach) s->reach = size;
+    }
+    if (c->spins) keep_outer(s);
+    return IMP_SUCCESS;
+}
+
+/* --- One plane -------------------------------------------------------------------------------- */
+
+/* Lemma. Let |n| = 1 but for 8 u, x a point of a's piece and y one of b, S(t) the course's rotation
+ * about its line, z = turn y + shift, and h = n.way(t). A point z has the place p = k.(z - c) along
+ * the line and the distance q beside it, k the line's unit vector, c its center; S z has the same,
+ * and n.(S z - c) >= (n.k) p - |n x k| q. That is concave in z, so its least value over the convex
+ * hull of corners is at one of them, and points within `slack` of it lose at most that much, as the
+ * slope is |n| long. So, at all times,
+ *
+ *   |y - x| (1 + 8 u) >= n.(S z + way - x) - off
+ *                     >= min over corners (n.k) p - |n x k| q + n.c + h - max over corners n.x
+ *                        - (off + both slacks) (1 + 8 u);
+ *
+ * where the course does not spin, n.z stands for the first terms and n.c. Rounding, in units of u
+ * times |c|, |z| and |x| at most: z - c 1; k 8; p 4; cross product 4 and its length 4; n.k and |n x
+ * k| 8 + 8 each; products and sum 4; n.c and n.x 4 each; sums 4. Of what is left out: sums 4, 8. */
+enum { PLANE_ROUNDING = 256 };
+_Static_assert(1 + 8 + 4 + 8 + 2 * 16 + 4 + 8 + 4 <= PLANE_ROUNDING, "rounding of a plane");
+PAD_COVERS(16, 4 + 8);
+
+/* Returns a model over the course that is no greater than the distance of the piece from b. */
+static imp_model beyond(const piece_course *of, const shadow *s, const vec3 corner[4], vec3 n)
+{
+    const surface_course *c = &of->course;
+    const vec3 w = weights_of(c, n);
+    double least = INFINITY, most = -INFINITY;
+    imp_model axis[3];
+    for (size_t k = 0; k < s->count; ++k) {
+        const double here = vec3_dot(w, s->p[k]);
+        if (!(here >= least)) least = here;
+    }
+    for (int k = 0; k < 4; ++k) {
+        const double here = vec3_dot(n, corner[k]);
+        if (!(here <= most)) most = here;
+    }
+    for (int i = 0; i < 3; ++i) axis[i] = imp_num(n.x[i]);
+    const double at = c->spins ? vec3_dot(n, vec3_from(c->center)) : 0;
+    const double center = c->spins ? vec3_norm(vec3_from(c->center)) : 0;
+    const double size = s->reach + of->own->reach + center;
+    const double off = padded_upper(
+        c->off + of->own->slack + of->other->slack + PLANE_ROUNDING * UNIT_ROUNDOFF * size, 16);
+    const imp_model g = imp_shift(imp_dot3(axis, c->way), least + at - most - off);
+    return imp_scale(g, 1 - 0x1p-48);
+}
+
+/* Whether the plane of a piece with that normal parts it from b at some times of the window; *left
+ * becomes the others. */
+static bool part_by(const piece_course *of, const shadow *s, const vec3 corner[4], vec3 n,
+                    double gamma_clear, piece_view *view)
+{
+    const time_window whole = view->left;
+    const imp_model g = beyond(of, s, corner, n);
+    view->is_apart =
+        distance_cut_heights(&g, 1, &of->times, gamma_clear, &view->left, &view->lower);
+    return view->is_apart || view->lower > 0 || view->left.lo > whole.lo ||
+           view->left.hi < whole.hi;
+}
+
+/* --- All planes ------------------------------------------------------------------------------- */
+
+void piece_view_join(piece_view *all, const piece_view *one)
+{
+    if (one->lower < all->lower) all->lower = one->lower;
+    if (one->is_apart) return;
+    if (all->is_apart || one->left.lo < all->left.lo) all->left.lo = one->left.lo;
+    if (all->is_apart || one->left.hi > all->left.hi) all->left.hi = one->left.hi;
+    all->is_apart = false;
+}
+
+bool piece_view_is_useless(const piece_view *view, const time_window *window)
+{
+    return !view->is_apart && !(view->lower > 0) && view->left.lo <= window->lo &&
+           view->left.hi >= window->hi;
+}
+
+static void try_piece(const piece_course *of, const shadow *s, const vec3 corner[4],
+                      double gamma_clear, piece_view *one)
+{
+    const vec3 across = vec3_cross(vec3_sub(corner[3], corner[0]), vec3_sub(corner[2], corner[1]));
+    const double length = vec3_norm(across);
+    const time_window window = one->left;
+    if (!(length > 0x1p-500 && length < INFINITY)) return;
+    for (int side = 0; side < 2; ++side) {
+        *one = (piece_view){.left = window};
+        const vec3 n = vec3_scale(across, (side == 0 ? 1 : -1) / length);
+        if (part_by(of, s, corner, n, gamma_clear, one)) return;
+    }
+}
+
+/* Pieces are taken in a scattered order: one that touches ends it, wherever it lies. */
+imp_code piece_planes_cut(const piece_course *of, double gamma_clear, const time_window *window,
+                          piece_view *view, imp_error *error)
+{
+    shadow s;
+    const size_t n = of->own->count, half = n / 2; /* the step has no divisor in common with n */
+    const size_t step = n % 2 == 1 ? half : half % 2 == 1 ? half + 2 : half + 1;
+    piece_view all = {.is_apart = true, .left = *window, .lower = INFINITY};
+    *view = (piece_view){.left = *window};
+    if (n == 0 || of->other->count == 0) return IMP_SUCCESS;
+    const imp_code code = take_shadow(of, &s, error);
+    if (code != IMP_SUCCESS) return code;
+    for (size_t k = 0, at = 0; k < n; ++k, at = (at + step) % n) {
+        piece_view one = {.left = *window};
+        try_piece(of, &s, of->own->of[at], gamma_clear, &one);
+        piece_view_join(&all, &one);
+        if (piece_view_is_useless(&all, window)) break;
+    }
+    free(s.p);
+    if (!piece_view_is_useless(&all, window)) *view = all;
+    return IMP_SUCCESS;
+}

@@ -1,0 +1,208 @@
+/* SPDX-FileCopyrightText: The Impinge authors
+ * SPDX-License-Identifier: Apache-2.0 */
+#include <config.h>
+
+#include "core/bounds/piece_sides.h"
+
+#include <impinge/model.h>
+#include <stdlib.h>
+
+#include "core/base/rounding.h"
+#include "core/base/status.h"
+
+/* --- Corners of pieces ------------------------------------------------------------------------ */
+
+/* Lemma. a + b_u s + b_v r + q_uv s r is bilinear: over the square a convex combination of its
+ * values at the four corners. What else a model has is at most e + |q_uu| + |q_vv|, coordinate by
+ * coordinate. Roundings: 3 sums of a corner, 8 of the slack, squares, sums and root of it. */
+enum { CORNER_ROUNDING = 8 };
+PAD_COVERS(16, 8 + 3 + 2);
+
+static bool take_piece(const surface *piece, const time_window *times, vec3 corner[4],
+                       double *slack, imp_status *status)
+{
+    imp_model x[3];
+    double lo[3], hi[3], sum = 0;
+    surface_domain(piece, lo, hi);
+    lo[2] = times->lo, hi[2] = times->hi;
+    const imp_region all = region_make(lo, hi);
+    *status = surface_include_inner(piece, &all, surface_inner_maps(piece), x);
+    if (*status != IMP_STATUS_OK) return false;
+    for (int i = 0; i < 3; ++i) {
+        const imp_model *m = &x[i];
+        const double uv = m->q[IMP_UV],
+                     size = fabs(m->a) + fabs(m->b[0]) + fabs(m->b[1]) + fabs(uv);
+        const double in_time = fabs(m->b[2]) + fabs(m->q[IMP_UT]) + fabs(m->q[IMP_VT]) +
+                               fabs(m->q[IMP_TT]); /* 0, unless the type contradicts itself */
+        const double more = m->e + fabs(m->q[IMP_UU]) + fabs(m->q[IMP_VV]) + in_time +
+                            CORNER_ROUNDING * UNIT_ROUNDOFF * size;
+        if ((m->depends >> PARAMETER_T & 1) != 0 || !(size + more < 0x1p200)) return false;
+        sum += more * more;
+        for (int k = 0; k < 4; ++k) {
+            const double s = k / 2 == 0 ? -1 : 1, r = k % 2 == 0 ? -1 : 1;
+            corner[k].x[i] = m->a + s * m->b[0] + r * m->b[1] + s * r * uv;
+        }
+    }
+    *slack = padded_upper(sqrt(sum), 16) + ROOT_UNDERFLOW;
+    return true;
+}
+
+static const surface *piece_at(const surface *s, size_t k)
+{
+    return surface_piece_count(s) > 0 ? surface_piece(s, k) : s;
+}
+
+imp_code piece_corners_take(const surface *s, const time_window *times, size_t most,
+                            piece_corners *corners, bool *known, imp_error *error)
+{
+    const size_t all = surface_piece_count(s) > 0 ? surface_piece_count(s) : 1;
+    *corners = (piece_corners){.count = all < most ? all : most};
+    *known = false;
+    corners->of = malloc(corners->count * sizeof *corners->of);
+    if (corners->of == NULL) return error_set_memory(error);
+    for (size_t k = 0; k < corners->count; ++k) {
+        const surface *piece = piece_at(s, k * all / corners->count);
+        double slack;
+        imp_status status;
+        if (!take_piece(piece, times, corners->of[k], &slack, &status))
+            return status == IMP_STATUS_OK || status == IMP_STATUS_UNBOUNDED
+                       ? IMP_SUCCESS
+                       : distance_fault(piece, status, error);
+        if (slack > corners->slack) corners->slack = slack;
+        for (int j = 0; j < 4; ++j) {
+            const double size = vec3_norm(corners->of[k][j]);
+            if (size > corners->reach) corners->reach = size;
+        }
+    }
+    *known = true;
+    return IMP_SUCCESS;
+}
+
+void piece_corners_clear(piece_corners *corners)
+{
+    free(corners->of);
+    corners->of = NULL;
+}
+
+/* --- Both sides ------------------------------------------------------------------------------- */
+
+typedef struct piece_search {
+    const distance_sides *of;
+    double gamma_clear;
+    time_window times;
+    surface_course course[2]; /* of the other side, as this one sees it */
+} piece_search;
+
+/* By the planes of a side's pieces, then by what its type knows of it as a whole. */
+static imp_code cut_side(const piece_search *q, const piece_corners corners[2], int side,
+                         const time_window *window, piece_view *view, imp_error *error)
+{
+    const surface *own = q->of->root[side]->surface;
+    const piece_course of = {
+        .a = own,
+        .b = q->of->root[!side]->surface,
+        .own = &corners[side],
+        .other = &corners[!side],
+        .course = q->course[side],
+        .times = region_make((double[3]){-1, -1, q->times.lo}, (double[3]){1, 1, q->times.hi})};
+    const imp_code code = piece_planes_cut(&of, q->gamma_clear, window, view, error);
+    const bool is_round = surface_piece_count(own) == 0 && surface_inner_maps(own) == 0;
+    if (code != IMP_SUCCESS || view->is_apart || !is_round) return code;
+    imp_code (*const more[])(const piece_course *, double, const time_window *, piece_view *,
+                             imp_error *) = {piece_rings_cut, piece_ball_cut};
+    for (int k = 0; k < 2 && !view->is_apart; ++k) {
+        piece_view found;
+        const imp_code result = more[k](&of, q->gamma_clear, window, &found, error);
+        if (result != IMP_SUCCESS) return result;
+        if (found.is_apart || found.lower > view->lower) *view = found;
+    }
+    return IMP_SUCCESS;
+}
+
+/* Cuts by each side with at most `most` pieces of either. */
+static imp_code cut_with(const piece_search *q, size_t most, bool sides[2], distance_outcome *seen,
+                         imp_error *error)
+{
+    piece_corners corners[2] = {{.of = NULL}, {.of = NULL}};
+    bool known = true;
+    imp_code code = IMP_SUCCESS;
+    for (int side = 0; side < 2 && code == IMP_SUCCESS && known; ++side)
+        code = piece_corners_take(q->of->root[side]->surface, &q->times, most, &corners[side],
+                                  &known, error);
+    for (int side = 0; side < 2 && code == IMP_SUCCESS; ++side) {
+        piece_view view;
+        sides[side] = sides[side] && known && q->course[side].is_known;
+        if (!sides[side] || seen->is_apart) continue;
+        const time_window window = seen->left;
+        code = cut_side(q, corners, side, &window, &view, error);
+        sides[side] = !piece_view_is_useless(&view, &window);
+        if (view.is_apart || view.lower > seen->lower) seen->lower = view.lower;
+        seen->is_apart = view.is_apart;
+        if (!view.is_apart) seen->left = view.left;
+    }
+    for (int side = 0; side < 2; ++side) piece_corners_clear(&corners[side]);
+    return code;
+}
+
+/* Models of a side's points before its last maps. */
+static imp_code find_bare(const piece_search *q, int side, imp_model bare[3], bool *known,
+                          imp_error *error)
+{
+    const node *root = q->of->root[side];
+    piece_corners corners;
+    if (surface_inner_maps(root->surface) == 0) {
+        *known = node_bare_models(root, bare);
+        return IMP_SUCCESS;
+    }
+    const imp_code code =
+        piece_corners_take(root->surface, &q->times, PIECES_MOST, &corners, known, error);
+    const double most = sum_upper(corners.reach * (1 + 0x1p-40), corners.slack);
+    for (int i = 0; i < 3; ++i) bare[i] = imp_between(-most, most);
+    piece_corners_clear(&corners);
+    return code;
+}
+
+static imp_code find_courses(piece_search *q, imp_error *error)
+{
+    const imp_region times =
+        region_make((double[3]){-1, -1, q->times.lo}, (double[3]){1, 1, q->times.hi});
+    const double moment = 0.5 * q->times.lo + 0.5 * q->times.hi;
+    for (int side = 0; side < 2; ++side) {
+        const node *b = q->of->root[!side];
+        imp_model bare[3];
+        bool known;
+        q->course[side].is_known = false;
+        const imp_code code = find_bare(q, !side, bare, &known, error);
+        if (code != IMP_SUCCESS) return code;
+        if (!known) continue;
+        const imp_status status = surface_course_of(q->of->root[side]->surface, b->surface, bare,
+                                                    &times, moment, &q->course[side]);
+        if (status != IMP_STATUS_OK) return distance_fault(b->surface, status, error);
+    }
+    return IMP_SUCCESS;
+}
+
+/* Some pieces in which a side shows nothing spare it all of them. */
+enum { PIECES_FIRST = 12 };
+
+imp_code piece_sides_cut(const distance_sides *of, unsigned search, double gamma_clear,
+                         distance_outcome *seen, imp_error *error)
+{
+    const surface *const s[2] = {of->root[0]->surface, of->root[1]->surface};
+    piece_search q = {
+        .of = of, .gamma_clear = gamma_clear, .times = pair_times(of->root[0], of->root[1])};
+    bool sides[2] = {true, true};
+    size_t most = 1;
+    if ((of->slips->searches & search) != 0 || !of->takes_orbits) return IMP_SUCCESS;
+    of->slips->searches = (unsigned char)(of->slips->searches | search);
+    for (int side = 0; side < 2; ++side)
+        if (surface_piece_count(s[side]) > most) most = surface_piece_count(s[side]);
+    if (most == 1 || most > PIECES_MOST || surface_common_maps(s[0], s[1]) > 0) return IMP_SUCCESS;
+    imp_code code = find_courses(&q, error);
+    if (code == IMP_SUCCESS && most > PIECES_FIRST) {
+        distance_outcome some = *seen;
+        code = cut_with(&q, PIECES_FIRST, sides, &some, error);
+    }
+    if (code != IMP_SUCCESS || (!sides[0] && !sides[1])) return code;
+    return cut_with(&q, most, sides, seen, error);
+}

@@ -1,0 +1,266 @@
+/* SPDX-FileCopyrightText: The Impinge authors
+ * SPDX-License-Identifier: Apache-2.0 */
+#include <config.h>
+
+#include "core/surface/course.h"
+
+#include <impinge/model.h>
+#include <string.h>
+
+#include "core/base/rounding.h"
+#include "core/surface/slip.h"
+
+/* Maps are exact rotations and shifts here, so that the inverse of a turn is its transpose. */
+
+size_t surface_inner_maps(const surface *s)
+{
+    size_t inner = s->map_count;
+    while (inner > 0 && IMP_OFFERS(s->maps[inner - 1].type, rigid) &&
+           map_turns_exactly(&s->maps[inner - 1]))
+        --inner;
+    return inner;
+}
+
+/* --- One pose as another sees it -------------------------------------------------------------- */
+
+static imp_status pose_of(const surface *s, const imp_region *times, imp_pose *pose)
+{
+    const size_t inner = surface_inner_maps(s);
+    if (s->map_count > inner) return surface_pose_of_maps(s, inner, s->map_count, times, pose);
+    memset(pose, 0, sizeof *pose);
+    for (int i = 0; i < 3; ++i)
+        for (int j = 0; j < 3; ++j) pose->turn[i][j] = imp_num(i == j);
+    for (int i = 0; i < 3; ++i) pose->shift[i] = imp_num(0);
+    return IMP_STATUS_OK;
+}
+
+/* x = turn y + shift, y of b and x in a's coordinates, both before their maps. */
+typedef struct relative {
+    imp_model turn[3][3], shift[3];
+} relative;
+
+static void relate(const imp_pose *a, const imp_pose *b, relative *r)
+{
+    imp_model way[3];
+    for (int k = 0; k < 3; ++k) way[k] = imp_sub(b->shift[k], a->shift[k]);
+    for (int i = 0; i < 3; ++i) {
+        const imp_model back[3] = {a->turn[0][i], a->turn[1][i], a->turn[2][i]};
+        imp_model pivot[3];
+        for (int j = 0; j < 3; ++j) {
+            const imp_model column[3] = {b->turn[0][j], b->turn[1][j], b->turn[2][j]};
+            r->turn[i][j] = imp_dot3(back, column);
+            pivot[j] = imp_num(b->pivot[j]);
+        }
+        r->shift[i] =
+            imp_shift(imp_sub(imp_dot3(back, way), imp_dot3(r->turn[i], pivot)), a->pivot[i]);
+    }
+}
+
+static imp_status relate_at(const surface *a, const surface *b, const imp_region *times,
+                            relative *r, bool *turns)
+{
+    imp_pose of_a, of_b;
+    imp_status status = pose_of(a, times, &of_a);
+    if (status == IMP_STATUS_OK) status = pose_of(b, times, &of_b);
+    if (status != IMP_STATUS_OK) return status;
+    *turns = pose_turns(&of_a) || pose_turns(&of_b);
+    relate(&of_a, &of_b, r);
+    return IMP_STATUS_OK;
+}
+
+/* Takes numbers for the turn, and for the shift if it `has_shift`, and adds what they are off by.
+ * Roundings of turn y + shift: 3 of the sum of sizes, by which any computation of it is off. */
+PAD_COVERS(16, 3 + 6);
+static void take_numbers(const relative *r, const imp_model bare[3], bool has_shift,
+                         surface_course *course)
+{
+    double sum = 0;
+    for (int i = 0; i < 3; ++i) {
+        const imp_interval shift = imp_model_range(&r->shift[i]);
+        course->shift[i] = has_shift ? r->shift[i].a : 0;
+        double off = has_shift ? imp_interval_radius_upper(shift, course->shift[i]) : 0;
+        off += 16 * UNIT_ROUNDOFF * fabs(course->shift[i]);
+        for (int j = 0; j < 3; ++j) {
+            const imp_interval turn = imp_model_range(&r->turn[i][j]);
+            const double most = imp_interval_mag(imp_interval_make(bare[j].lo, bare[j].hi));
+            course->turn[i][j] = r->turn[i][j].a;
+            off += most * (imp_interval_radius_upper(turn, course->turn[i][j]) +
+                           16 * UNIT_ROUNDOFF * fabs(course->turn[i][j]));
+        }
+        sum += off * off;
+    }
+    course->off = padded_upper(sqrt(sum), 16) + ROOT_UNDERFLOW;
+}
+
+/* --- The line about which b turns ------------------------------------------------------------- */
+
+/* Estimates the line about which the motion from one moment to another turns: X = M1 M0^-1 takes x
+ * to R x + d. Returns the sine of its angle, by which good estimates are told. */
+static double line_between(const relative *m0, const relative *m1, double center[3], double axis[3])
+{
+    double turn[3][3], d[3], across[3], along = 0, size = 0, trace = 0;
+    for (int i = 0; i < 3; ++i) {
+        d[i] = m1->shift[i].a;
+        for (int j = 0; j < 3; ++j) {
+            turn[i][j] = 0;
+            for (int k = 0; k < 3; ++k) turn[i][j] += m1->turn[i][k].a * m0->turn[j][k].a;
+            d[i] -= turn[i][j] * m0->shift[j].a;
+        }
+        trace += turn[i][i];
+    }
+    for (int i = 0; i < 3; ++i) {
+        const int j = (i + 1) % 3, k = (i + 2) % 3;
+        axis[i] = 0.5 * (turn[k][j] - turn[j][k]);
+        size += axis[i] * axis[i];
+    }
+    const double sine = sqrt(size);
+    if (!(sine > 0)) return 0;
+    for (int i = 0; i < 3; ++i) axis[i] /= sine;
+    for (int i = 0; i < 3; ++i) along += axis[i] * d[i];
+    for (int i = 0; i < 3; ++i) across[i] = d[i] - along * axis[i];
+    const double cotangent = (1 + 0.5 * (trace - 1)) / sine;
+    for (int i = 0; i < 3; ++i) {
+        const int j = (i + 1) % 3, k = (i + 2) % 3;
+        center[i] = 0.5 * (across[i] + cotangent * (axis[j] * across[k] - axis[k] * across[j]));
+    }
+    return sine;
+}
+
+/* Sines below this give a line that is mostly rounding. */
+#define SINE_LEAST 0x1p-6
+
+static imp_status find_line(const surface *a, const surface *b, const imp_region *times,
+                            double moment, const relative *m0, imp_symmetry *line, bool *found)
+{
+    static const double parts[] = {0.31, -0.27, 0.11, 0.03, 0.007};
+    double best = SINE_LEAST;
+    for (int k = 0; k < 5; ++k) {
+        const double t = moment + parts[k] * (times->hi[2] - times->lo[2]);
+        const imp_region at = slip_at_times(times, t, t);
+        double center[3], axis[3];
+        relative m1;
+        bool turns;
+        if (!(times->lo[2] <= t && t <= times->hi[2])) continue;
+        const imp_status status = relate_at(a, b, &at, &m1, &turns);
+        if (status != IMP_STATUS_OK) return status;
+        const double sine = line_between(m0, &m1, center, axis);
+        if (!(sine > best)) continue;
+        best = sine;
+        memcpy(line->center, center, sizeof center);
+        memcpy(line->axis, axis, sizeof axis);
+    }
+    line->kind = IMP_SYMMETRY_ALONG_LINE;
+    *found = best > SINE_LEAST;
+    return IMP_STATUS_OK;
+}
+
+/* Carries a point of b to a's coordinates, over the times. */
+static imp_status carry_point(const surface *a, const surface *b, const double y[3],
+                              const imp_region *times, imp_model x[3])
+{
+    carried at = {.off = 0};
+    imp_pose pose;
+    double d;
+    imp_status status = IMP_STATUS_OK;
+    for (int i = 0; i < 3; ++i) at.at[i] = imp_num(y[i]);
+    for (size_t k = 0; k < b->map_count && status == IMP_STATUS_OK; ++k) {
+        status = carried_pose(b, k, times, &pose, &d);
+        if (status == IMP_STATUS_OK) carried_push(&pose, d, &at);
+    }
+    for (size_t k = a->map_count; k-- > 0 && status == IMP_STATUS_OK;) {
+        status = carried_pose(a, k, times, &pose, &d);
+        if (status == IMP_STATUS_OK) carried_pull(&pose, d, &at);
+    }
+    memcpy(x, at.at, sizeof at.at);
+    return status;
+}
+
+/* Lemma. Let M(t) take points of b to a's coordinates, L be the line and n its unit vector. By the
+ * lemma of slips (surface_slip.c), with a's symmetry that of L, M(t) y is within `slip` of S M(t0)
+ * y, S = S(t) a rotation about L with a shift of s(t) n. Rotations about L keep n.x, so s(t) =
+ * n.(M(t) y - M(t0) y) up to `slip`, whichever point y is: one near L is taken, whose models are
+ * tightest. n = axis / |axis|, |axis|^2 within 2^-49 of 1. */
+static imp_status follow_line(const surface *a, const surface *b, const imp_region *times,
+                              double moment, double slip, surface_course *course)
+{
+    const imp_region at = slip_at_times(times, moment, moment);
+    imp_model now[3], then[3], axis[3];
+    double y[3];
+    for (int j = 0; j < 3; ++j) {
+        y[j] = 0;
+        for (int i = 0; i < 3; ++i)
+            y[j] += course->turn[i][j] * (course->center[i] - course->shift[i]);
+    }
+    imp_status status = carry_point(a, b, y, times, now);
+    if (status == IMP_STATUS_OK) status = carry_point(a, b, y, &at, then);
+    if (status != IMP_STATUS_OK) return status;
+    for (int i = 0; i < 3; ++i) {
+        axis[i] = imp_num(course->axis[i]);
+        now[i] = imp_sub(now[i], imp_between(then[i].lo, then[i].hi));
+    }
+    const double room = padded_upper(slip, 16);
+    imp_model along = imp_add(imp_dot3(axis, now), imp_between(-room, room));
+    along = imp_mul(along, imp_between(1 - 0x1p-48, 1 + 0x1p-48));
+    for (int i = 0; i < 3; ++i) course->way[i] = imp_scale(along, course->axis[i]);
+    return IMP_STATUS_OK;
+}
+
+static imp_status find_spin(const surface *a, const surface *b, const imp_model bare[3],
+                            const imp_region *times, double moment, surface_course *course)
+{
+    const imp_region at = slip_at_times(times, moment, moment);
+    slip_input q = {
+        .a = b, .b = a, .a_maps = b->map_count, .b_maps = a->map_count, .then = at, .bare = bare};
+    relative m0;
+    bool turns, found;
+    double slip;
+    imp_status status = relate_at(a, b, &at, &m0, &turns);
+    if (status == IMP_STATUS_OK) status = find_line(a, b, times, moment, &m0, &q.found, &found);
+    if (status != IMP_STATUS_OK || !found || !symmetry_is_sane(&q.found)) return status;
+    status = slip_find(&q, times, &slip);
+    if (status != IMP_STATUS_OK || !(slip < INFINITY)) return status;
+    course->spins = true;
+    memcpy(course->center, q.found.center, sizeof q.found.center);
+    memcpy(course->axis, q.found.axis, sizeof q.found.axis);
+    take_numbers(&m0, bare, true, course);
+    status = follow_line(a, b, times, moment, slip, course);
+    course->off = sum_upper(course->off, slip);
+    course->is_known = status == IMP_STATUS_OK && course->off < INFINITY;
+    return status;
+}
+
+imp_status surface_course_of(const surface *a, const surface *b, const imp_model bare[3],
+                             const imp_region *times, double moment, surface_course *course)
+{
+    relative m;
+    bool turns;
+    *course = (surface_course){.off = INFINITY};
+    const bool may_spin = carried_exactly(a) && carried_exactly(b);
+    imp_status status = relate_at(a, b, times, &m, &turns);
+    if (status == IMP_STATUS_OK && !turns) {
+        take_numbers(&m, bare, false, course);
+        memcpy(course->way, m.shift, sizeof m.shift);
+        course->is_known = course->off < INFINITY;
+    } else if (may_spin && (status == IMP_STATUS_OK || status == IMP_STATUS_UNBOUNDED)) {
+        status = find_spin(a, b, bare, times, moment, course);
+    }
+    return status == IMP_STATUS_UNBOUNDED ? IMP_STATUS_OK : status;
+}
+
+imp_status surface_line_of(const surface *s, const surface_course *course, double center[3],
+                           double axis[3], bool *has)
+{
+    imp_symmetry found;
+    *has = false;
+    if (!surface_has_symmetry(s)) return IMP_STATUS_OK;
+    const imp_status status = surface_symmetry(s, &found);
+    if (status != IMP_STATUS_OK) return status == IMP_STATUS_UNBOUNDED ? IMP_STATUS_OK : status;
+    const bool is_ball = found.kind == IMP_SYMMETRY_ABOUT_POINT;
+    const double z[3] = {0, 0, 1};
+    const double *way = !is_ball ? found.axis : course->spins ? course->axis : z;
+    const double length = sqrt(slip_dot(way, way));
+    for (int i = 0; i < 3; ++i) axis[i] = way[i] / length;
+    memcpy(center, found.center, sizeof found.center);
+    *has = true;
+    return IMP_STATUS_OK;
+}

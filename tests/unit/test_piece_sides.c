@@ -1,0 +1,387 @@
+/* SPDX-FileCopyrightText: The Impinge authors
+ * SPDX-License-Identifier: Apache-2.0 */
+#include <config.h>
+
+#include <impinge/model.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "core/bounds/piece_sides.h"
+#include "core/common/random.h"
+#include "core/scene/scene.h"
+#include "tests/support/query_helpers.h"
+
+/* Surfaces of many pieces that turn about a line, slide, or lie still inside and beside others:
+ * points are where the course says, and at no moment are points nearer than what was claimed of all
+ * pieces at once. */
+
+enum { SCENES = 150, MOMENTS = 6, POINTS = 60, STEPS = 60, TEXT = 3000 };
+
+static imp_registry *registry;
+
+static void open_registry(void) { registry = query_registry(); }
+
+static void close_registry(void) { imp_registry_free(registry); }
+
+/* --- Scenes ----------------------------------------------------------------------------------- */
+
+static double part(uint64_t *random) { return random_between(random, -1, 1); }
+
+/* A closed prism or drum of flat sides about z, its radii drawn anew at each height, as a mesh. */
+static void add_drum(uint64_t *random, double radius, char text[TEXT])
+{
+    const int sides = 3 + (int)(random_bits(random) % 6), rows = 2 + (int)(random_bits(random) % 2);
+    char *at = text;
+    const double turn = 3 * part(random);
+    at += sprintf(at, "mesh points=[");
+    for (int k = 0; k < rows; ++k) {
+        const double r = radius * (k == 0 ? 1 : random_between(random, 0.6, 1));
+        for (int j = 0; j < sides; ++j)
+            at += sprintf(at, "%s[%.17g,%.17g,%.17g]", k + j > 0 ? "," : "",
+                          r * cos(turn + 2 * 3.14159265358979 * j / sides),
+                          r * sin(turn + 2 * 3.14159265358979 * j / sides), 0.8 * k - 0.4);
+    }
+    at += sprintf(at, "] faces=[");
+    for (int k = 0; k + 1 < rows; ++k)
+        for (int j = 0; j < sides; ++j) {
+            const int a = k * sides + j, b = k * sides + (j + 1) % sides;
+            at += sprintf(at, "%s[%d,%d,%d],[%d,%d,%d]", k + j > 0 ? "," : "", a, b, a + sides, b,
+                          b + sides, a + sides);
+        }
+    sprintf(at, "]");
+}
+
+/* Inside of the first shape, beside it, or anywhere near. */
+static const char *const shapes[] = {"cylinder radius=1.5 height=2 center=0,0,-1",
+                                     "cone radius=2 height=3 center=0,0,-1",
+                                     "torus major_radius=2 minor_radius=0.5",
+                                     "box size=4,4,2",
+                                     "plane origin=-2,-2,0.7 edge_u=4,0,0 edge_v=0,4,0",
+                                     "plane origin=1.3,-2,-2 edge_u=0,4,0 edge_v=0,0,4",
+                                     "sphere radius=0.5 center=1.9,0.1,0.2",
+                                     "sphere radius=2"};
+enum { SHAPES = sizeof shapes / sizeof *shapes };
+
+static void add_turn(uint64_t *random, char *text)
+{
+    const bool is_off = random_bits(random) % 4 == 0;
+    sprintf(text + strlen(text), " ! rotate axis=%.17g,0,1 center=%.17g,0,0 angle=%.17g,%.17g",
+            is_off ? 0.2 * part(random) : 0, is_off ? 0.2 * part(random) : 0, part(random),
+            random_power(random, -3, 7) * (random_bits(random) % 2 ? 1 : -1));
+}
+
+static void add_shift(uint64_t *random, char *text)
+{
+    const bool is_along = random_bits(random) % 2;
+    sprintf(text + strlen(text), " ! translate offset=[[0,0,0],[%.17g,%.17g,%.17g],[0,0,%.17g]]",
+            is_along ? 0 : 0.2 * part(random), is_along ? 0 : 0.2 * part(random),
+            0.4 * part(random), 0.2 * part(random));
+}
+
+static void add_place(uint64_t *random, char *text)
+{
+    sprintf(text + strlen(text),
+            " ! rotate axis=%.17g,%.17g,1 angle=%.17g ! translate offset=[[%.17g,2,3]]",
+            part(random), part(random), 3 * part(random), part(random));
+}
+
+static void draw_scene(uint64_t *random, char a[TEXT], char b[TEXT])
+{
+    char place[TEXT] = "";
+    add_drum(random, random_between(random, 0.5, 1), a);
+    if (random_bits(random) % 3)
+        strcpy(b, shapes[random_bits(random) % SHAPES]);
+    else
+        add_drum(random, random_between(random, 1.5, 3), b);
+    if (random_bits(random) % 4 == 0) strcat(a, " ! scale factor=[0.9,0.8,0.9]");
+    if (random_bits(random) % 4) add_turn(random, a);
+    if (random_bits(random) % 3 == 0) add_turn(random, b);
+    if (random_bits(random) % 2) add_shift(random, random_bits(random) % 2 ? a : b);
+    if (random_bits(random) % 2) add_place(random, place);
+    strcat(a, place);
+    if (random_bits(random) % 8) strcat(b, place);
+}
+
+typedef struct trial {
+    imp_scene *scene;
+    const surface *s[2];
+    tree *trees[2];
+    distance_slips slips;
+    distance_sides of;
+    time_window times;
+    char text[2][TEXT];
+} trial;
+
+static void trial_begin(trial *y, uint64_t *random)
+{
+    imp_error error;
+    draw_scene(random, y->text[0], y->text[1]);
+    y->scene = imp_scene_from_pair(registry, y->text[0], y->text[1], &error);
+    ck_assert_msg(y->scene != NULL, "%s | %s: %s", y->text[0], y->text[1], error.text);
+    const double t0 = random_fraction(random), t1 = t0 + random_power(random, -8, 0);
+    y->slips = (distance_slips){.slip = {0, 0}};
+    y->of = (distance_sides){.slips = &y->slips, .takes_orbits = true};
+    for (int k = 0; k < 2; ++k) {
+        const tree_plan plan = {.kind = TREE_MODELS, .t_start = t0, .t_end = t1};
+        tree_growth growth = {0};
+        y->s[k] = scene_surface(y->scene, (size_t)k, 0);
+        ck_assert_int_eq(tree_new(y->s[k], &plan, &y->trees[k], &growth, &error), IMP_SUCCESS);
+        y->of.node[k] = y->of.root[k] = tree_root(y->trees[k]);
+    }
+    y->times = pair_times(y->of.root[0], y->of.root[1]);
+}
+
+static void trial_end(trial *y)
+{
+    for (int k = 0; k < 2; ++k) tree_free(y->trees[k]);
+    imp_scene_free(y->scene);
+}
+
+static size_t piece_count(const surface *s)
+{
+    return surface_piece_count(s) > 0 ? surface_piece_count(s) : 1;
+}
+
+static const surface *piece_at(const surface *s, size_t k)
+{
+    return surface_piece_count(s) > 0 ? surface_piece(s, k) : s;
+}
+
+static void place_at(const surface *s, const double at[2], double t, double x[3])
+{
+    double lo[3], hi[3];
+    surface_domain(s, lo, hi);
+    const double p[3] = {lo[0] + at[0] * (hi[0] - lo[0]), lo[1] + at[1] * (hi[1] - lo[1]), t};
+    ck_assert_int_eq(surface_eval(s, 1, p, x, NULL), IMP_STATUS_OK);
+}
+
+/* --- Distances at a moment -------------------------------------------------------------------- */
+
+enum { GRID = 4, SPOTS = GRID * GRID, BEST = 4 };
+
+/* A point of a piece. */
+typedef struct spot {
+    size_t piece;
+    double at[2], x[3];
+} spot;
+
+typedef struct near_spots {
+    const spot *s[2];
+    double apart;
+} near_spots;
+
+static spot *spots_of(const surface *s, double t, size_t *count)
+{
+    *count = SPOTS * piece_count(s);
+    spot *all = calloc(*count, sizeof *all);
+    ck_assert_ptr_nonnull(all);
+    for (size_t k = 0; k < *count; ++k) {
+        all[k].piece = k / SPOTS;
+        all[k].at[0] = (double)(k % GRID) / (GRID - 1);
+        all[k].at[1] = (double)(k / GRID % GRID) / (GRID - 1);
+        place_at(piece_at(s, all[k].piece), all[k].at, t, all[k].x);
+    }
+    return all;
+}
+
+/* The distance of two pieces near two points of them, from above. */
+static double step_near(const trial *y, const near_spots *from, double t)
+{
+    double best = from->apart, at[2][2], step = 0.2;
+    for (int j = 0; j < 2; ++j) memcpy(at[j], from->s[j]->at, sizeof at[j]);
+    for (int k = 0; k < STEPS; ++k) {
+        bool found = false;
+        for (int d = 0; d < 8; ++d) {
+            double to[2][2], x[2][3];
+            memcpy(to, at, sizeof to);
+            double *moved = &to[d / 4][d / 2 % 2];
+            *moved += d % 2 ? step : -step;
+            *moved = *moved < 0 ? 0 : *moved > 1 ? 1 : *moved;
+            for (int j = 0; j < 2; ++j)
+                place_at(piece_at(y->s[j], from->s[j]->piece), to[j], t, x[j]);
+            if (!(query_distance(x[0], x[1]) < best)) continue;
+            best = query_distance(x[0], x[1]), found = true;
+            memcpy(at, to, sizeof at);
+        }
+        if (!found) step *= 0.5;
+    }
+    return best;
+}
+
+/* Nearly the distance at a time, from above: near some of the nearest pairs of points. */
+static double nearly_apart(const trial *y, double t)
+{
+    near_spots best[BEST];
+    size_t count[2];
+    spot *const all[2] = {spots_of(y->s[0], t, &count[0]), spots_of(y->s[1], t, &count[1])};
+    double least = INFINITY;
+    for (int k = 0; k < BEST; ++k) best[k].apart = INFINITY;
+    for (size_t i = 0; i < count[0]; ++i)
+        for (size_t j = 0; j < count[1]; ++j) {
+            near_spots here = {{&all[0][i], &all[1][j]}, query_distance(all[0][i].x, all[1][j].x)};
+            for (int k = 0; k < BEST && here.apart < best[BEST - 1].apart; ++k) {
+                if (!(here.apart < best[k].apart)) continue;
+                const near_spots other = best[k];
+                best[k] = here, here = other;
+            }
+        }
+    for (int k = 0; k < BEST && best[k].apart < INFINITY; ++k) {
+        const double found = step_near(y, &best[k], t);
+        if (found < least) least = found;
+    }
+    for (int k = 0; k < 2; ++k) free(all[k]);
+    return least;
+}
+
+typedef struct tally {
+    int apart, cut, bounded, refuted, too_far;
+} tally;
+
+static void try_scene(double share, uint64_t *random, tally *sum)
+{
+    trial y;
+    imp_error error;
+    double found[MOMENTS], t[MOMENTS], least = INFINITY;
+    trial_begin(&y, random);
+    for (int k = 0; k < MOMENTS; ++k) {
+        const double f = k == 0 ? 0 : k == 1 ? 1 : random_fraction(random);
+        t[k] = y.times.lo + f * (y.times.hi - y.times.lo);
+        found[k] = share * nearly_apart(&y, t[k]) + 1e-12;
+        if (found[k] < least) least = found[k];
+    }
+    const double gamma_clear = least * (1 + random_power(random, -20, -1) * part(random));
+    distance_outcome seen = distance_outcome_none(&y.times);
+    ck_assert_int_eq(piece_sides_cut(&y.of, 1, gamma_clear, &seen, &error), IMP_SUCCESS);
+    sum->apart += seen.is_apart;
+    sum->cut += !seen.is_apart && (seen.left.lo > y.times.lo || seen.left.hi < y.times.hi);
+    sum->bounded += seen.lower > 0;
+    for (int k = 0; k < MOMENTS; ++k) {
+        const bool is_cut_off = seen.is_apart || t[k] < seen.left.lo || t[k] > seen.left.hi;
+        if (is_cut_off && found[k] < gamma_clear) sum->refuted += 1;
+        if (found[k] < seen.lower) sum->too_far += 1;
+        if (share == 1)
+            ck_assert_msg(!(is_cut_off && found[k] < gamma_clear) && !(found[k] < seen.lower),
+                          "%s | %s: %.17g at %.17g, %.17g claimed, gamma_clear %.17g", y.text[0],
+                          y.text[1], found[k], t[k], seen.lower, gamma_clear);
+    }
+    trial_end(&y);
+}
+
+START_TEST(no_points_are_nearer_than_is_claimed_of_all_pieces)
+{
+    uint64_t random = suite_seed();
+    tally sum = {0, 0, 0, 0, 0};
+    for (int k = 0; k < suite_times(SCENES); ++k) try_scene(1, &random, &sum);
+    ck_assert_msg(sum.apart > 0 && sum.cut > 0 && sum.bounded > 0, "%d apart, %d cut, %d bounded",
+                  sum.apart, sum.cut, sum.bounded);
+}
+END_TEST
+
+/* The test above must be able to fail: of distances that are a little less it does. */
+START_TEST(claims_that_are_too_large_are_found)
+{
+    uint64_t random = suite_seed();
+    tally sum = {0, 0, 0, 0, 0};
+    for (int k = 0; k < SCENES; ++k) try_scene(1 - 2e-2, &random, &sum);
+    ck_assert_msg(sum.refuted > 0 && sum.too_far > 0, "%d refuted, %d too far", sum.refuted,
+                  sum.too_far);
+}
+END_TEST
+
+/* --- Courses ---------------------------------------------------------------------------------- */
+
+/* x before the surface's maps, which are exact rotations and shifts: by its images of 4 points. */
+static void take_back(const double frame[4][3], const double x[3], double out[3])
+{
+    for (int j = 0; j < 3; ++j) {
+        out[j] = 0;
+        for (int i = 0; i < 3; ++i)
+            out[j] += (frame[j + 1][i] - frame[0][i]) * (x[i] - frame[0][i]);
+    }
+}
+
+static void frame_at(const surface *s, double t, double frame[4][3])
+{
+    for (int k = 0; k < 4; ++k) {
+        memset(frame[k], 0, sizeof frame[k]);
+        if (k > 0) frame[k][k - 1] = 1;
+        ck_assert_int_eq(surface_move_outward(s, surface_inner_maps(s), t, frame[k]),
+                         IMP_STATUS_OK);
+    }
+}
+
+/* Along the line and beside it. */
+static void places(const surface_course *c, const double x[3], double place[2])
+{
+    vec3 from;
+    for (int i = 0; i < 3; ++i) from.x[i] = x[i] - c->center[i];
+    const vec3 axis = vec3_from(c->axis);
+    place[0] = vec3_dot(from, axis);
+    place[1] = vec3_norm(vec3_cross(from, axis));
+}
+
+static void judge_course(const trial *y, const surface_course *c, const imp_region *times,
+                         const imp_model bare[3], uint64_t *random)
+{
+    for (int k = 0; k < POINTS; ++k) {
+        const double w = part(random), t = times->c[2] + w * times->d[2];
+        double from[3], now[3], frame[2][4][3], x[3], z[3], off = c->off + 1e-11;
+        for (int i = 0; i < 3; ++i) from[i] = random_between(random, bare[i].lo, bare[i].hi);
+        frame_at(y->s[0], t, frame[0]);
+        frame_at(y->s[1], t, frame[1]);
+        for (int i = 0; i < 3; ++i) {
+            now[i] = frame[1][0][i];
+            for (int j = 0; j < 3; ++j) now[i] += (frame[1][j + 1][i] - frame[1][0][i]) * from[j];
+        }
+        take_back((const double(*)[3])frame[0], now, x);
+        for (int i = 0; i < 3; ++i) {
+            const imp_model *way = &c->way[i];
+            const double moved = way->a + way->b[2] * w + way->q[IMP_TT] * w * w;
+            z[i] = c->shift[i] + (c->spins ? 0 : moved);
+            x[i] -= c->spins ? moved : 0;
+            off += way->e;
+            for (int j = 0; j < 3; ++j) z[i] += c->turn[i][j] * from[j];
+        }
+        if (!c->spins) {
+            ck_assert_msg(query_distance(x, z) <= off, "%s | %s", y->text[0], y->text[1]);
+            continue;
+        }
+        double at[2], was[2];
+        places(c, x, at);
+        places(c, z, was);
+        ck_assert_msg(hypot(at[0] - was[0], at[1] - was[1]) <= off, "%s | %s at %.17g: %g %g, %g",
+                      y->text[0], y->text[1], t, at[0] - was[0], at[1] - was[1], off);
+    }
+}
+
+START_TEST(points_are_where_the_course_says)
+{
+    uint64_t random = suite_seed();
+    int still = 0, spins = 0;
+    for (int n = 0; n < suite_times(SCENES); ++n) {
+        trial y;
+        surface_course course;
+        trial_begin(&y, &random);
+        const double lo[3] = {-1, -1, y.times.lo}, hi[3] = {1, 1, y.times.hi};
+        const imp_region times = region_make(lo, hi);
+        const imp_model bare[3] = {imp_between(-1, 1), imp_between(-0.5, 1), imp_between(0, 2)};
+        const double moment = random_between(&random, y.times.lo, y.times.hi);
+        ck_assert_int_eq(surface_course_of(y.s[0], y.s[1], bare, &times, moment, &course),
+                         IMP_STATUS_OK);
+        still += course.is_known && !course.spins;
+        spins += course.is_known && course.spins && course.off < 1e-6;
+        if (course.is_known) judge_course(&y, &course, &times, bare, &random);
+        trial_end(&y);
+    }
+    ck_assert_msg(still > 0 && spins > 0, "%d still, %d spin", still, spins);
+}
+END_TEST
+
+int main(void)
+{
+    const TTest *const tests[] = {no_points_are_nearer_than_is_claimed_of_all_pieces,
+                                  claims_that_are_too_large_are_found,
+                                  points_are_where_the_course_says};
+    return suite_main_with("piece sides", tests, sizeof tests / sizeof tests[0], open_registry,
+                           close_registry);
+}
