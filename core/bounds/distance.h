@@ -103,6 +103,12 @@ typedef struct distance_sides {
     bool is_audited;
 } distance_sides;
 
+/* The pieces of two surfaces that seem to be nearest to each other. */
+typedef struct piece_hint {
+    bool is_known;
+    size_t piece[2];
+} piece_hint;
+
 /* The result of both nodes' distances from each other's surface. */
 typedef struct distance_outcome {
     time_window left; /* of the window; outside, the nodes are farther apart than gamma_clear */
@@ -110,6 +116,7 @@ typedef struct distance_outcome {
     double lower;     /* bound of the distance over the window, if below gamma_clear; length */
     int side;         /* the side whose node to split; -1: none */
     double bend[3];   /* nonlinear extents of that node in the other's frame, about; length */
+    piece_hint hint;  /* of two roots of many pieces */
 } distance_outcome;
 
 /* Whether maps of the other side rotate its surface, so that distances hold only with a slip. */

@@ -12,7 +12,7 @@
 
 distance_outcome distance_outcome_none(const time_window *window)
 {
-    return (distance_outcome){*window, false, 0, -1, {0, 0, 0}};
+    return (distance_outcome){*window, false, 0, -1, {0, 0, 0}, {false, {0, 0}}};
 }
 
 static imp_region all_of(const time_window *times)

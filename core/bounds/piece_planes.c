@@ -15,8 +15,13 @@
 /* Points such that the least value of n.x at all times of the course, but for its way and what is
  * left out (lemma below), is that of w.p, w = weights_of(n): the corners where the course does not
  * spin, and else their places along the line and beside it. */
+typedef struct shadow_point {
+    vec3 p;
+    size_t piece; /* whose corner it is */
+} shadow_point;
+
 typedef struct shadow {
-    vec3 *p;
+    shadow_point *of;
     size_t count;
     double reach; /* >= |x| of each corner, seen from a; length */
 } shadow;
@@ -37,9 +42,10 @@ static vec3 weights_of(const surface_course *c, vec3 n)
 
 static int along_line(const void *x, const void *y)
 {
-    const vec3 *p = x, *q = y;
-    if (p->x[0] != q->x[0]) return p->x[0] < q->x[0] ? -1 : 1;
-    return p->x[1] < q->x[1] ? -1 : p->x[1] > q->x[1];
+    const shadow_point *p = x, *q = y;
+    for (int i = 0; i < 2; ++i)
+        if (p->p.x[i] != q->p.x[i]) return p->p.x[i] < q->p.x[i] ? -1 : 1;
+    return p->piece < q->piece ? -1 : p->piece > q->piece;
 }
 
 /* Whether the middle one of three points, ordered along the line, is surely not above the others'
@@ -57,12 +63,12 @@ static bool is_below(vec3 before, vec3 middle, vec3 after)
 static void keep_outer(shadow *s)
 {
     size_t kept = 0;
-    qsort(s->p, s->count, sizeof *s->p, along_line);
+    qsort(s->of, s->count, sizeof *s->of, along_line);
     for (size_t k = 0; k < s->count; ++k) {
-        const vec3 next = s->p[k];
-        if (kept > 0 && s->p[kept - 1].x[0] == next.x[0]) kept -= 1;
-        while (kept > 1 && is_below(s->p[kept - 2], s->p[kept - 1], next)) kept -= 1;
-        s->p[kept++] = next;
+        const shadow_point next = s->of[k];
+        if (kept > 0 && s->of[kept - 1].p.x[0] == next.p.x[0]) kept -= 1;
+        while (kept > 1 && is_below(s->of[kept - 2].p, s->of[kept - 1].p, next.p)) kept -= 1;
+        s->of[kept++] = next;
     }
     s->count = kept;
 }
@@ -72,13 +78,13 @@ static imp_code take_shadow(const piece_course *of, shadow *s, imp_error *error)
     const surface_course *c = &of->course;
     const vec3 center = vec3_from(c->center), axis = vec3_from(c->axis);
     *s = (shadow){.count = 4 * of->other->count};
-    s->p = malloc(s->count * sizeof *s->p);
-    if (s->p == NULL) return error_set_memory(error);
+    s->of = malloc(s->count * sizeof *s->of);
+    if (s->of == NULL) return error_set_memory(error);
     for (size_t k = 0; k < s->count; ++k) {
         const vec3 x = seen_by(c, of->other->of[k / 4][k % 4]), from = vec3_sub(x, center);
         const double size = vec3_norm(x);
-        s->p[k] =
-            c->spins ? (vec3){{vec3_dot(from, axis), vec3_norm(vec3_cross(from, axis)), 0}} : x;
+        const vec3 places = {{vec3_dot(from, axis), vec3_norm(vec3_cross(from, axis)), 0}};
+        s->of[k] = (shadow_point){c->spins ? places : x, k / 4};
         if (size > s->reach) s->reach = size;
     }
     if (c->spins) keep_outer(s);
@@ -106,15 +112,16 @@ _Static_assert(1 + 8 + 4 + 8 + 2 * 16 + 4 + 8 + 4 <= PLANE_ROUNDING, "rounding o
 PAD_COVERS(16, 4 + 8);
 
 /* Returns a model over the course that is no greater than the distance of the piece from b. */
-static imp_model beyond(const piece_course *of, const shadow *s, const vec3 corner[4], vec3 n)
+static imp_model beyond(const piece_course *of, const shadow *s, const vec3 corner[4], vec3 n,
+                        size_t *nearest)
 {
     const surface_course *c = &of->course;
     const vec3 w = weights_of(c, n);
     double least = INFINITY, most = -INFINITY;
     imp_model axis[3];
     for (size_t k = 0; k < s->count; ++k) {
-        const double here = vec3_dot(w, s->p[k]);
-        if (!(here >= least)) least = here;
+        const double here = vec3_dot(w, s->of[k].p);
+        if (!(here >= least)) least = here, *nearest = s->of[k].piece;
     }
     for (int k = 0; k < 4; ++k) {
         const double here = vec3_dot(n, corner[k]);
@@ -136,7 +143,7 @@ static bool part_by(const piece_course *of, const shadow *s, const vec3 corner[4
                     double gamma_clear, piece_view *view)
 {
     const time_window whole = view->left;
-    const imp_model g = beyond(of, s, corner, n);
+    const imp_model g = beyond(of, s, corner, n, &view->hint.piece[1]);
     view->is_apart =
         distance_cut_heights(&g, 1, &of->times, gamma_clear, &view->left, &view->lower);
     return view->is_apart || view->lower > 0 || view->left.lo > whole.lo ||
@@ -147,7 +154,10 @@ static bool part_by(const piece_course *of, const shadow *s, const vec3 corner[4
 
 void piece_view_join(piece_view *all, const piece_view *one)
 {
-    if (one->lower < all->lower) all->lower = one->lower;
+    if (one->lower < all->lower) {
+        all->lower = one->lower;
+        all->hint = one->hint;
+    }
     if (one->is_apart) return;
     if (all->is_apart || one->left.lo < all->left.lo) all->left.lo = one->left.lo;
     if (all->is_apart || one->left.hi > all->left.hi) all->left.hi = one->left.hi;
@@ -174,6 +184,43 @@ static void try_piece(const piece_course *of, const shadow *s, const vec3 corner
     }
 }
 
+/* --- Which pieces are nearest ----------------------------------------------------------------- */
+
+static vec3 middle_of(const vec3 corner[4])
+{
+    const vec3 sum = vec3_add(vec3_add(corner[0], corner[1]), vec3_add(corner[2], corner[3]));
+    return vec3_scale(sum, 0.25);
+}
+
+/* A corner nearer than this part of the sizes to the nearest one counts as near. */
+#define NEARLY 0x1p-30
+
+/* Many pieces have a corner that is nearest to a plane; the one whose middle is nearest to that of
+ * the plane's piece faces it. Where the course spins, that depends on the time. */
+static void find_facing(const piece_course *of, const shadow *s, piece_hint *hint)
+{
+    const vec3 *own = of->own->of[hint->piece[0]], middle = middle_of(own);
+    const vec3 across = vec3_cross(vec3_sub(own[3], own[0]), vec3_sub(own[2], own[1]));
+    const vec3 way = {{of->course.way[0].a, of->course.way[1].a, of->course.way[2].a}};
+    const size_t near = hint->piece[1];
+    double least = INFINITY, best = INFINITY;
+    if (of->course.spins) return;
+    const vec3 to = vec3_sub(vec3_add(s->of[4 * near].p, way), middle);
+    const vec3 n = vec3_scale(across, vec3_dot(across, to) < 0 ? -1 : 1);
+    for (size_t k = 0; k < s->count; ++k)
+        if (vec3_dot(n, s->of[k].p) < least) least = vec3_dot(n, s->of[k].p);
+    const double room = NEARLY * vec3_norm(n) * (s->reach + of->own->reach);
+    for (size_t k = 0; k < s->count; ++k) {
+        vec3 corner[4];
+        if (!(vec3_dot(n, s->of[k].p) <= least + room)) continue;
+        for (int j = 0; j < 4; ++j) corner[j] = vec3_add(s->of[k / 4 * 4 + (size_t)j].p, way);
+        const double apart = vec3_norm(vec3_sub(middle_of(corner), middle));
+        if (!(apart < best)) continue;
+        best = apart;
+        hint->piece[1] = s->of[k].piece;
+    }
+}
+
 /* Pieces are taken in a scattered order: one that touches ends it, wherever it lies. */
 imp_code piece_planes_cut(const piece_course *of, double gamma_clear, const time_window *window,
                           piece_view *view, imp_error *error)
@@ -189,10 +236,13 @@ imp_code piece_planes_cut(const piece_course *of, double gamma_clear, const time
     for (size_t k = 0, at = 0; k < n; ++k, at = (at + step) % n) {
         piece_view one = {.left = *window};
         try_piece(of, &s, of->own->of[at], gamma_clear, &one);
+        one.hint.is_known = true;
+        one.hint.piece[0] = at;
         piece_view_join(&all, &one);
         if (piece_view_is_useless(&all, window)) break;
     }
-    free(s.p);
+    if (all.hint.is_known) find_facing(of, &s, &all.hint);
+    free(s.of);
     if (!piece_view_is_useless(&all, window)) *view = all;
     return IMP_SUCCESS;
 }

@@ -136,7 +136,11 @@ static imp_code cut_with(const piece_search *q, size_t most, bool sides[2], dist
         const time_window window = seen->left;
         code = cut_side(q, corners, side, &window, &view, error);
         sides[side] = !piece_view_is_useless(&view, &window);
-        if (view.is_apart || view.lower > seen->lower) seen->lower = view.lower;
+        if (view.is_apart || view.lower > seen->lower) {
+            const size_t *piece = view.hint.piece;
+            seen->lower = view.lower;
+            seen->hint = (piece_hint){view.hint.is_known, {piece[side], piece[!side]}};
+        }
         seen->is_apart = view.is_apart;
         if (!view.is_apart) seen->left = view.left;
     }

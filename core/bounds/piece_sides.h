@@ -44,6 +44,7 @@ typedef struct piece_view {
     bool is_apart;    /* farther than gamma_clear during the whole window */
     time_window left; /* of the window; outside, they are farther apart than gamma_clear */
     double lower;     /* bound of the distance over the window, or 0; length */
+    piece_hint hint;  /* where it is that bound */
 } piece_view;
 
 /* What is left of a window by several pieces is what any of them leaves. */

@@ -132,11 +132,16 @@ static void test_and_push(min_distance *m, pair p)
 
 /* --- Expanding one pair ----------------------------------------------------------------------- */
 
-static imp_code find_witness(min_distance *m, const pair *p, imp_error *error)
+/* Among the pieces that the hint names, or else that are nearest. */
+static imp_code find_witness(min_distance *m, const pair *p, const piece_hint *hint,
+                             imp_error *error)
 {
+    const candidate_pair *both = &m->candidates[p->candidate_pair];
     pair single = *p;
     witness seen;
-    imp_code code = pair_descend(&single, &m->candidates[p->candidate_pair], m->stats, error);
+    imp_code code = IMP_SUCCESS;
+    if (hint != NULL) code = pair_descend_to(&single, hint->piece, both, m->stats, error);
+    if (code == IMP_SUCCESS) code = pair_descend(&single, both, m->stats, error);
     if (code != IMP_SUCCESS) return code;
     const node *const nodes[2] = {single.a, single.b};
     m->stats->witness_searches += 1;
@@ -156,7 +161,7 @@ static imp_code take_start(min_distance *m, imp_error *error)
 {
     const pair p = m->starts[m->start_count - 1];
     imp_code code = pair_measure(&p, &m->candidates[p.candidate_pair], error);
-    if (code == IMP_SUCCESS) code = find_witness(m, &p, error);
+    if (code == IMP_SUCCESS) code = find_witness(m, &p, NULL, error);
     if (code != IMP_SUCCESS) return code;
     m->start_count -= 1;
     test_and_push(m, p);
@@ -206,10 +211,12 @@ static imp_code follow(min_distance *m, pair p, imp_error *error)
 {
     distance_outcome seen;
     imp_code code = pair_measure(&p, &m->candidates[p.candidate_pair], error);
-    if (code == IMP_SUCCESS && p.wait == 0) code = find_witness(m, &p, error);
+    if (code == IMP_SUCCESS && p.wait == 0) code = find_witness(m, &p, NULL, error);
     if (code != IMP_SUCCESS) return code;
     p.wait = p.wait == 0 ? TUNING_WITNESS_WAIT : p.wait - 1;
     code = look(m, &p, &seen, error);
+    if (code == IMP_SUCCESS && !seen.is_apart && seen.hint.is_known)
+        code = find_witness(m, &p, &seen.hint, error);
     if (code != IMP_SUCCESS || seen.is_apart || p.key[0] > enough(m)) return code;
     const cut c = choose_cut(m, &p, &seen);
     if (c.side >= 0) return split(m, &p, c, error);

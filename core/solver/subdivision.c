@@ -242,3 +242,27 @@ imp_code pair_descend(pair *p, const candidate_pair *both, imp_stats *stats, imp
     }
     return IMP_SUCCESS;
 }
+
+/* The first n / 2 of the n pieces of a cluster, in the hierarchy's order, are those of its first
+ * half. */
+imp_code pair_descend_to(pair *p, const size_t piece[2], const candidate_pair *both,
+                         imp_stats *stats, imp_error *error)
+{
+    for (int side = 0; side < 2; ++side) {
+        const node *root = side_of(p, side);
+        size_t count = surface_piece_count(root->surface), at = 0;
+        if (root->many == NULL) continue;
+        const uint32_t *order = hierarchy_order(root->many->of);
+        while (at + 1 < count && order[at] != piece[side]) ++at;
+        while (side_of(p, side)->many != NULL) {
+            const cut c = {side, PARAMETER_U, 0};
+            const int half = at >= count / 2;
+            bool some;
+            const imp_code code = cut_take(&c, half, both, p, &some, stats, error);
+            if (code != IMP_SUCCESS) return code;
+            at -= half == 1 ? count / 2 : 0;
+            count = half == 1 ? count - count / 2 : count / 2;
+        }
+    }
+    return IMP_SUCCESS;
+}

@@ -26,6 +26,10 @@ bool pair_has_cluster(const pair *p);
 /* Descends to one piece on each side, always to the half whose box is nearer. */
 imp_code pair_descend(pair *p, const candidate_pair *both, imp_stats *stats, imp_error *error);
 
+/* Descends from the roots to these pieces. */
+imp_code pair_descend_to(pair *p, const size_t piece[2], const candidate_pair *both,
+                         imp_stats *stats, imp_error *error);
+
 /* Computes a key for the heap, after p->serial is set: the squared distance of the centres at time
  * t. Pairs with an unbounded node come after all others, newest first, so that the search reaches a
  * place that has no bounds at any size before it has searched all of its surroundings. */
