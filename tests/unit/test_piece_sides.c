@@ -15,7 +15,7 @@
  * points are where the course says, and at no moment are points nearer than what was claimed of all
  * pieces at once. */
 
-enum { SCENES = 150, MOMENTS = 6, POINTS = 60, STEPS = 60, TEXT = 3000 };
+enum { SCENES = 120, MOMENTS = 6, POINTS = 60, STEPS = 60, TEXT = 3000 };
 
 static imp_registry *registry;
 
@@ -72,7 +72,7 @@ static void add_turn(uint64_t *random, char *text)
 
 static void add_shift(uint64_t *random, char *text)
 {
-    const bool is_along = random_bits(random) % 2;
+    const bool is_along = random_bits(random) % 4 != 0;
     sprintf(text + strlen(text), " ! translate offset=[[0,0,0],[%.17g,%.17g,%.17g],[0,0,%.17g]]",
             is_along ? 0 : 0.2 * part(random), is_along ? 0 : 0.2 * part(random),
             0.4 * part(random), 0.2 * part(random));
@@ -95,8 +95,8 @@ static void draw_scene(uint64_t *random, char a[TEXT], char b[TEXT])
         add_drum(random, random_between(random, 1.5, 3), b);
     if (random_bits(random) % 4 == 0) strcat(a, " ! scale factor=[0.9,0.8,0.9]");
     if (random_bits(random) % 4) add_turn(random, a);
-    if (random_bits(random) % 3 == 0) add_turn(random, b);
-    if (random_bits(random) % 2) add_shift(random, random_bits(random) % 2 ? a : b);
+    if (random_bits(random) % 8 == 0) add_turn(random, b);
+    if (random_bits(random) % 4) add_shift(random, random_bits(random) % 2 ? a : b);
     if (random_bits(random) % 2) add_place(random, place);
     strcat(a, place);
     if (random_bits(random) % 8) strcat(b, place);
@@ -249,7 +249,8 @@ static void try_scene(double share, uint64_t *random, tally *sum)
         found[k] = share * nearly_apart(&y, t[k]) + 1e-12;
         if (found[k] < least) least = found[k];
     }
-    const double gamma_clear = least * (1 + random_power(random, -20, -1) * part(random));
+    const double near = random_bits(random) % 2 ? least : found[random_bits(random) % MOMENTS];
+    const double gamma_clear = near * (1 + random_power(random, -20, -1) * part(random));
     distance_outcome seen = distance_outcome_none(&y.times);
     ck_assert_int_eq(piece_sides_cut(&y.of, 1, gamma_clear, &seen, &error), IMP_SUCCESS);
     sum->apart += seen.is_apart;
@@ -271,8 +272,8 @@ START_TEST(no_points_are_nearer_than_is_claimed_of_all_pieces)
 {
     uint64_t random = suite_seed();
     tally sum = {0, 0, 0, 0, 0};
-    for (int k = 0; k < suite_times(SCENES); ++k) try_scene(1, &random, &sum);
-    ck_assert_msg(sum.apart > 0 && sum.cut > 0 && sum.bounded > 0, "%d apart, %d cut, %d bounded",
+    for (int k = 0; k < suite_times_at_least(SCENES); ++k) try_scene(1, &random, &sum);
+    ck_assert_msg(sum.apart + sum.cut > 0 && sum.bounded > 0, "%d apart, %d cut, %d bounded",
                   sum.apart, sum.cut, sum.bounded);
 }
 END_TEST
@@ -358,7 +359,7 @@ START_TEST(points_are_where_the_course_says)
 {
     uint64_t random = suite_seed();
     int still = 0, spins = 0;
-    for (int n = 0; n < suite_times(SCENES); ++n) {
+    for (int n = 0; n < suite_times_at_least(SCENES); ++n) {
         trial y;
         surface_course course;
         trial_begin(&y, &random);
