@@ -150,28 +150,9 @@ END_TEST
 
 START_TEST(what_is_no_number_is_none)
 {
-    static const char *const words[] = {"",
-                                        "-",
-                                        "+",
-                                        ".",
-                                        "-.",
-                                        "1.2.3",
-                                        "1-2",
-                                        "--1",
-                                        "+-1",
-                                        "1e",
-                                        "1e+",
-                                        "0x1",
-                                        "nan",
-                                        "inf",
-                                        "1,5",
-                                        "e5",
-                                        " 1",
-                                        "1 ",
-                                        "1e5.",
-                                        "1f",
-                                        "\xef\xbb\xbf"
-                                        "1"};
+    static const char *const words[] = {
+        "",    "-",   "+",   ".",   "-.", "1.2.3", "1-2", "--1",  "+-1", "1e",           "1e+",
+        "0x1", "nan", "inf", "1,5", "e5", " 1",    "1 ",  "1e5.", "1f",  "\357\273\2771"};
     double x;
     for (size_t k = 0; k < sizeof words / sizeof *words; ++k)
         ck_assert_msg(!imp_decimal_number(words[k], strlen(words[k]), &x), "%s", words[k]);
