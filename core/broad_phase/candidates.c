@@ -25,18 +25,75 @@ static size_t key_of(const candidate *candidates, const candidate_pair *p, sort_
     return key >= KEY_BODY_B ? c->body : (size_t)(c - candidates);
 }
 
-/* A stable counting sort; `start` has one element per key and one more. False: all keys are equal,
- * and nothing is moved. */
-static bool sort_pass(const candidate_list *list, sort_key key, size_t *start, size_t keys,
-                      candidate_pair *to)
+/* The order of a list's pairs, by their indices: an index takes a twelfth of a pair's bytes. */
+typedef struct pair_order {
+    uint32_t *at, *to; /* now, and room for the next */
+    size_t *start;     /* room for one element per key and one more */
+    size_t keys;
+} pair_order;
+
+static void order_clear(pair_order *order)
 {
-    memset(start, 0, (keys + 1) * sizeof *start);
+    free(order->at);
+    free(order->to);
+    free(order->start);
+}
+
+/* False: no memory; then too it has to be cleared. */
+static bool order_begin(pair_order *order, size_t pairs, size_t keys)
+{
+    *order = (pair_order){.at = malloc((pairs + 1) * sizeof *order->at),
+                          .to = malloc((pairs + 1) * sizeof *order->to),
+                          .start = malloc((keys + 1) * sizeof *order->start),
+                          .keys = keys};
+    if (order->at == NULL || order->to == NULL || order->start == NULL) return false;
+    for (size_t k = 0; k < pairs; ++k) order->at[k] = (uint32_t)k;
+    return true;
+}
+
+/* A stable counting sort. False: all keys are equal, and nothing is moved. */
+static bool sort_pass(const candidate_list *list, sort_key key, pair_order *order)
+{
+    size_t *start = order->start;
+    memset(start, 0, (order->keys + 1) * sizeof *start);
     for (size_t k = 0; k < list->pair_count; ++k)
         start[key_of(list->candidates, &list->pairs[k], key) + 1] += 1;
     if (start[key_of(list->candidates, &list->pairs[0], key) + 1] == list->pair_count) return false;
-    for (size_t k = 0; k < keys; ++k) start[k + 1] += start[k];
-    for (size_t k = 0; k < list->pair_count; ++k)
-        to[start[key_of(list->candidates, &list->pairs[k], key)]++] = list->pairs[k];
+    for (size_t k = 0; k < order->keys; ++k) start[k + 1] += start[k];
+    for (size_t k = 0; k < list->pair_count; ++k) {
+        const uint32_t pair = order->at[k];
+        order->to[start[key_of(list->candidates, &list->pairs[pair], key)]++] = pair;
+    }
+    uint32_t *sorted = order->to;
+    order->to = order->at;
+    order->at = sorted;
+    return true;
+}
+
+/* Moves each pair to its place, along the cycles of the order, which is used up. */
+static void move_pairs(candidate_pair *pairs, size_t count, uint32_t *order)
+{
+    for (size_t k = 0; k < count; ++k) {
+        const candidate_pair first = pairs[k];
+        size_t at = k;
+        while (order[at] != k) {
+            const size_t next = order[at];
+            pairs[at] = pairs[next];
+            order[at] = (uint32_t)at;
+            at = next;
+        }
+        pairs[at] = first;
+        order[at] = (uint32_t)at;
+    }
+}
+
+/* Gives back what the list has room for beyond its pairs and one more. False: no memory. */
+static bool shrink_pairs(candidate_list *list)
+{
+    candidate_pair *fitting = realloc(list->pairs, (list->pair_count + 1) * sizeof *fitting);
+    if (fitting == NULL) return false;
+    list->pairs = fitting;
+    list->pair_capacity = list->pair_count + 1;
     return true;
 }
 
@@ -46,24 +103,23 @@ static bool sort_pass(const candidate_list *list, sort_key key, size_t *start, s
 static imp_code sort_pairs(collection *all, bool *done, imp_error *error)
 {
     candidate_list *list = all->list;
+    pair_order order;
     const size_t bodies = scene_body_count(all->scene);
-    const size_t keys = list->count > bodies ? list->count : bodies;
-    size_t *start = malloc((keys + 1) * sizeof *start);
-    candidate_pair *to = malloc((list->pair_count + 1) * sizeof *to);
     const int last = bodies > 2 ? SORT_KEYS : KEY_BODY_B; /* two bodies are in order already */
-    *done = start != NULL && to != NULL;
-    const imp_code code = *done ? IMP_SUCCESS : error_set_memory(error);
+    bool is_moved = false;
+    *done = order_begin(&order, list->pair_count, list->count > bodies ? list->count : bodies);
+    bool has_memory = *done;
     for (int key = 0; *done && key < last; ++key) {
-        if (!sort_pass(list, (sort_key)key, start, keys, to)) continue;
-        candidate_pair *sorted = to;
-        to = list->pairs;
-        list->pairs = sorted;
-        list->pair_capacity = list->pair_count + 1;
+        if (!sort_pass(list, (sort_key)key, &order)) continue;
+        is_moved = true;
         *done = !collection_must_end(all);
     }
-    free(start);
-    free(to);
-    return code;
+    if (*done && is_moved) {
+        move_pairs(list->pairs, list->pair_count, order.at);
+        has_memory = *done = shrink_pairs(list);
+    }
+    order_clear(&order);
+    return has_memory ? IMP_SUCCESS : error_set_memory(error);
 }
 
 static imp_code collect_pairs(collection *all, bool *done, imp_error *error)
