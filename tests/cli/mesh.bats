@@ -66,7 +66,7 @@ END
     { printf 'solid of %071d' 0; printf '\4\0\0\0cut'; } >cut_binary.stl
     refused cut_binary.stl 'nor binary: 87 bytes, in place of 284 for 4 triangles'
     printf 'ply\nformat binary_little_endian 1.0\nelement vertex 2\nproperty float x\nproperty float y\nproperty float z\nend_header\nabcd' >cut.ply
-    refused cut.ply "', byte 119: the file ends before all elements"
+    refused cut.ply "', byte 118: the file ends before all elements"
     : >empty.obj
     refused empty.obj 'no faces in it'
 }
