@@ -51,6 +51,17 @@ static inline certificate made(const char *text, const uint8_t *tree, size_t siz
     return c;
 }
 
+/* Replaces the first `from` by `to`. */
+static inline void replace(certificate *c, const char *from, const char *to)
+{
+    uint8_t *at = memmem(c->bytes, c->size, from, strlen(from));
+    ck_assert_ptr_nonnull(at);
+    const size_t behind = c->size - (size_t)(at - c->bytes) - strlen(from);
+    memmove(at + strlen(to), at + strlen(from), behind);
+    memcpy(at, to, strlen(to));
+    c->size = c->size - strlen(from) + strlen(to);
+}
+
 /* Two triangles over two others. */
 static const char roofs[] =
     "impinge certificate 1\nprogram impinge 0\nverdict clear\napart 0.5\nfrom 0\nto 1\n"

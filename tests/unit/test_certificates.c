@@ -6,17 +6,6 @@
 
 /* impinge-verify on true and false certificates that are made here. */
 
-/* Replaces the first `from` by `to`. */
-static void replace(certificate *c, const char *from, const char *to)
-{
-    uint8_t *at = memmem(c->bytes, c->size, from, strlen(from));
-    ck_assert_ptr_nonnull(at);
-    const size_t behind = c->size - (size_t)(at - c->bytes) - strlen(from);
-    memmove(at + strlen(to), at + strlen(from), behind);
-    memcpy(at, to, strlen(to));
-    c->size = c->size - strlen(from) + strlen(to);
-}
-
 static void require_within(const certificate *c, unsigned long effort, const char *why)
 {
     statement s;
