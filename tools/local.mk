@@ -132,6 +132,7 @@ tools_cli = \
     tools/cli/output.c tools/cli/output.h \
     tools/cli/output_json.c \
     tools/cli/output_file.c tools/cli/output_file.h \
+    tools/cli/output_operands.c tools/cli/output_operands.h \
     tools/cli/output_target.c tools/cli/output_target.h \
     tools/cli/parts.c tools/cli/parts.h \
     tools/cli/program.c tools/cli/program.h \

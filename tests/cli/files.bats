@@ -128,6 +128,26 @@ disk_full() {
     [ "$verb" = simulate ] || as=(--format "$ending")
     fails 4 "impinge: $verb: /dev/full: No space left on device" writes "$verb" /dev/full "${as[@]}"
 }
+@test "what is read is never the file that is written, whatever its name" {
+    echo "$drop" >scene.json
+    ln -s scene.json link.svg
+    scene '"parameters": {"p": [0, 1]},' | jq -c '.bodies[0].maps[0].clock = "p"' >values.json
+    scene >plain.json
+    ln -s plain.json link.json
+    local file
+    for file in scene plain values; do cp $file.json $file.was; done
+    refuse() { fails 2 "$1 is what is read, and would be overwritten" "$IMPINGE" "${@:2}"; }
+    refuse "--output scene.json" simulate scene.json -o scene.json
+    refuse "--output link.svg" view scene.json -o link.svg
+    refuse "--output scene.json" view link.svg -o scene.json --format svg
+    refuse "--output link.svg" plot scene.json -o link.svg
+    refuse "--proof plain.json" solve plain.json --proof plain.json
+    refuse "--proof plain.json" clearance link.json --proof plain.json
+    refuse "--boxes values.json" solve values.json --boxes values.json
+    refuse "--resume values.json" clearance values.json --resume values.json
+    for file in scene plain values; do cmp $file.json $file.was; done
+}
+
 @test "a full disk is told in one true line by every writer" {
     [ -c /dev/full ] || skip 'no /dev/full'
     each_writer disk_full

@@ -8,6 +8,7 @@
 #include <string.h>
 
 #include "tools/check/badge.h"
+#include "tools/cli/output_operands.h"
 #include "tools/cli/progress.h"
 #include "tools/cli/verbs.h"
 
@@ -131,8 +132,9 @@ static exit_status publish(const job *j)
     const option_value *required = arguments_option(j->args, "require");
     const badge_facts facts = {j->content->name, j->content->version, text_or_null(j->formula)};
     const char *label = badge_label(j->report.root);
-    exit_status status = EXIT_ANSWERED;
-    if (badge != NULL) status = badge_write(badge->text, j->report.root, &facts, speaker);
+    exit_status status = output_spares_operands(j->args, "badge");
+    if (badge != NULL && status == EXIT_ANSWERED)
+        status = badge_write(badge->text, j->report.root, &facts, speaker);
     if (status != EXIT_ANSWERED || required == NULL || strcmp(label, "proved") == 0) return status;
     if (required->choice == REQUIRE_TESTED && strcmp(label, "tested") == 0) return status;
     return complain(

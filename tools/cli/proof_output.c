@@ -10,6 +10,7 @@
 
 #include "core/common/sha256.h"
 #include "tools/cli/output_file.h"
+#include "tools/cli/output_operands.h"
 #include "tools/cli/verbs.h"
 
 const option options_proof[] = {{.name = "proof",
@@ -37,6 +38,8 @@ exit_status proof_output_begin(imp_query *query, const arguments *args)
 {
     imp_error error = {0};
     if (arguments_option(args, "proof") == NULL) return EXIT_ANSWERED;
+    const exit_status spared = output_spares_operands(args, "proof");
+    if (spared != EXIT_ANSWERED) return spared;
     if (imp_query_keep_proof(query, &error) == IMP_SUCCESS) return EXIT_ANSWERED;
     return complain_of(&error, args->verb->name);
 }

@@ -13,6 +13,7 @@
 #include "tools/cli/input.h"
 #include "tools/cli/interrupt.h"
 #include "tools/cli/output.h"
+#include "tools/cli/output_operands.h"
 #include "tools/cli/progress.h"
 #include "tools/cli/proof_output.h"
 #include "tools/cli/reading_limit.h"
@@ -165,7 +166,8 @@ static exit_status answer(imp_scene *scene, const arguments *args)
     imp_error error = {0};
     imp_options options = query_options(scene, args);
     crew threads = {query_threads_asked(args)};
-    exit_status status;
+    exit_status status = output_spares_operands(args, "proof");
+    if (status != EXIT_ANSWERED) return status;
     query_lend_threads(&options, &threads);
     imp_query *query = imp_query_new(scene, &options, &error);
     imp_code code = query != NULL ? IMP_SUCCESS : error.code;

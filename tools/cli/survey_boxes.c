@@ -11,6 +11,7 @@
 #include "core/common/sha256.h"
 #include "core/common/system_error.h"
 #include "tools/cli/output.h"
+#include "tools/cli/output_operands.h"
 #include "tools/cli/result.h"
 #include "tools/cli/run_options.h"
 #include "tools/cli/verbs.h"
@@ -185,7 +186,8 @@ exit_status survey_boxes_begin(survey_boxes *b, const imp_scene *scene, imp_surv
                         "--resume FILE writes the boxes to FILE, too; give it without --boxes");
     if (boxes == NULL && resume == NULL) return EXIT_ANSWERED;
     b->path = boxes != NULL ? boxes->text : resume->text;
-    exit_status status = resume != NULL ? check_resume(b) : EXIT_ANSWERED;
+    exit_status status = output_spares_operands(args, boxes != NULL ? "boxes" : "resume");
+    if (status == EXIT_ANSWERED && resume != NULL) status = check_resume(b);
     if (status == EXIT_ANSWERED) status = output_file_begin(&b->out, b->path, args->verb->name);
     if (status != EXIT_ANSWERED) return status;
     b->begun = true;

@@ -2,9 +2,9 @@
  * SPDX-License-Identifier: Apache-2.0 */
 #include <config.h>
 
-#include "tools/cli/input.h"
 #include "tools/cli/interrupt.h"
 #include "tools/cli/output.h"
+#include "tools/cli/output_operands.h"
 #include "tools/cli/output_target.h"
 #include "tools/cli/verbs.h"
 #include "tools/simulate/record.h"
@@ -43,11 +43,9 @@ static exit_status run(const arguments *args)
         return complain(EXIT_USAGE, args->verb->name,
                         "--output FILE is missing: where the motion "
                         "is to be written, as a scene");
-    if (!output_is_standard(output->text) && input_is_same(output->text, args->operands[0]))
-        return complain(EXIT_USAGE, args->verb->name,
-                        "--output %s is the scene itself, which would be overwritten",
-                        output->text);
-    exit_status status = setup_read(&what, args);
+    exit_status status = output_spares_operands(args, "output");
+    if (status != EXIT_ANSWERED) return status;
+    status = setup_read(&what, args);
     if (status == EXIT_ANSWERED) status = simulate(&what, args, output->text);
     setup_free(&what);
     return status;

@@ -8,6 +8,7 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "tools/cli/output_operands.h"
 #include "tools/cli/verbs.h"
 #include "tools/view/at_values.h"
 
@@ -111,6 +112,7 @@ exit_status request_read(const arguments *args, view_request *request)
     exit_status status = count_in(args, "width", 1200, 64, 8192, &width);
     if (status == EXIT_ANSWERED) status = count_in(args, "height", 960, 64, 8192, &height);
     if (status == EXIT_ANSWERED) status = count_in(args, "frames", 61, 2, 2000, &frames);
+    if (status == EXIT_ANSWERED) status = output_spares_operands(args, "output");
     if (status != EXIT_ANSWERED) return status;
     *request = (view_request){.verb = args->verb->name,
                               .output = output != NULL ? output->text : NULL,

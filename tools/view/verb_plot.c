@@ -11,6 +11,7 @@
 #include "tools/cli/input.h"
 #include "tools/cli/output.h"
 #include "tools/cli/output_file.h"
+#include "tools/cli/output_operands.h"
 #include "tools/cli/program.h"
 #include "tools/cli/verbs.h"
 #include "tools/view/plot_source.h"
@@ -44,7 +45,8 @@ static bool ends_with(const arguments *args, const char *wanted)
 
 static exit_status check_output(const arguments *args)
 {
-    if (ending(args) == NULL || ends_with(args, ".svg")) return EXIT_ANSWERED;
+    const exit_status status = output_spares_operands(args, "output");
+    if (status != EXIT_ANSWERED || ending(args) == NULL || ends_with(args, ".svg")) return status;
     if (ends_with(args, ".png"))
         return png_check(arguments_option(args, "output")->text, args->verb->name);
     return complain(EXIT_USAGE, args->verb->name,
