@@ -191,6 +191,30 @@ START_TEST(what_is_defined_is_created_once)
 }
 END_TEST
 
+START_TEST(values_of_a_body_are_freed_once_it_is_read)
+{
+    json_t *root = json_pack("{s[{sss[{sssf}]}{sss[{sssf}]s[]}]}", "bodies", "name", "hand",
+                             "surfaces", "type", "kit", "radius", 1.0, "parent", "hand", "surfaces",
+                             "type", "kit", "radius", 2.0, "maps");
+    ck_assert_ptr_nonnull(root);
+    scene_bodies b;
+    imp_registry *kit = kit_registry();
+    const scene_source source = {.registry = kit};
+    const place at = place_document("s.json");
+    ck_assert_int_eq(scene_bodies_start(&b, &source, &error), IMP_SUCCESS);
+    ck_assert_int_eq(scene_json_read(&b, root, &at), IMP_SUCCESS);
+    const json_t *bodies = json_object_get(root, "bodies"), *part = json_array_get(bodies, 1);
+    ck_assert(json_is_null(json_array_get(bodies, 0)));
+    ck_assert(json_object_size(part) == 1 && json_object_get(part, "parent") != NULL);
+    ck_assert_uint_eq(b.assembly.bodies[1].parent, 0);
+    imp_scene *scene = scene_bodies_finish(&b, &at);
+    ck_assert_ptr_nonnull(scene);
+    imp_scene_free(scene);
+    json_decref(root);
+    imp_registry_free(kit);
+}
+END_TEST
+
 /* A chain of n links, each with so many maps. */
 static char *chain(size_t n, size_t maps)
 {
@@ -364,6 +388,7 @@ SUITE_MAIN("mechanism", a_child_moves_with_its_parent_and_that_with_its_own,
            definitions_stand_for_what_they_hold, definitions_there_are_not_are_refused,
            definitions_that_go_in_circles_are_refused, definitions_are_checked_whether_used_or_not,
            definitions_within_definitions_have_an_end, what_is_defined_is_created_once,
-           ancestors_without_maps_count_for_nothing, long_chains_are_composed_or_refused,
-           groups_are_ignored_among_themselves_and_with_others, groups_that_are_unclear_are_refused,
-           many_ignored_pairs_are_all_found, pairs_are_counted_as_if_one_by_one)
+           values_of_a_body_are_freed_once_it_is_read, ancestors_without_maps_count_for_nothing,
+           long_chains_are_composed_or_refused, groups_are_ignored_among_themselves_and_with_others,
+           groups_that_are_unclear_are_refused, many_ignored_pairs_are_all_found,
+           pairs_are_counted_as_if_one_by_one)
