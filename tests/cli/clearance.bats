@@ -177,7 +177,8 @@ END
 }
 
 @test "while an earlier violation is possible none is called the first" {
-    late >late.json
+    # Ellipsoids do not say that they are balls, whose distance takes one pair.
+    late | sed 's/"type": "sphere"/"type": "ellipsoid", "radii": [1,1,1]/g' >late.json
     run -1 "$IMPINGE" clearance late.json --require 2 --each --max-pairs 100 --json
     valid clearance
     json '.verdict == "violated" and .t_violated == null and .a_violated == null'
