@@ -109,6 +109,7 @@ check_suites = \
 # The same, with MPFI as the judge of bounds; the longest first.
 mpfi_suites = \
     tests/fuzz/certificate \
+    tests/unit/test_certificate_nets \
     tests/unit/test_certificates \
     tests/unit/test_certificate_changes \
     tests/unit/test_plugins \
@@ -198,6 +199,8 @@ tests_unit_test_plugins_SOURCES = tests/unit/test_plugins.c $(type_oracle) \
 tests_unit_test_checker_SOURCES = tests/unit/test_checker.c \
     tests/support/expression_oracle.c tests/support/oracle_number.c
 tests_unit_test_checker_LDADD = tools/libproof.la $(LDADD)
+tests_unit_test_certificate_nets_CPPFLAGS = $(AM_CPPFLAGS) -DPROOF_DOUBLE
+tests_unit_test_certificate_nets_LDADD = tools/libverify.la $(LDADD)
 tests_unit_test_certificates_CPPFLAGS = $(AM_CPPFLAGS) -DPROOF_DOUBLE
 tests_unit_test_certificates_LDADD = tools/libverify.la $(LDADD)
 tests_unit_test_certificate_changes_CPPFLAGS = $(AM_CPPFLAGS) -DPROOF_DOUBLE

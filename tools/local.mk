@@ -309,7 +309,12 @@ tools_libverify_la_SOURCES = \
     tools/verify/apart_cell.c \
     tools/verify/enclose.c tools/verify/enclose.h \
     tools/verify/input.c tools/verify/input.h \
+    tools/verify/look.c tools/verify/look.h \
+    tools/verify/motion.c tools/verify/motion.h \
     tools/verify/mpfi_functions.c \
+    tools/verify/net.c tools/verify/net.h \
+    tools/verify/net_formula.c tools/verify/net_internal.h \
+    tools/verify/net_jets.c \
     tools/verify/round.c tools/verify/round.h \
     tools/verify/shadow.c tools/verify/shadow.h \
     tools/verify/statement.c tools/verify/statement.h \

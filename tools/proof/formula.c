@@ -246,6 +246,13 @@ static jet computed(const jet *value, const step *s, int n)
 
 int formula_steps(const formula *f) { return f->count; }
 
+bool formula_depends(const formula *f, int variable)
+{
+    const unsigned uses =
+        f->steps[f->out[0]].uses | f->steps[f->out[1]].uses | f->steps[f->out[2]].uses;
+    return (uses >> variable & 1) != 0;
+}
+
 void formula_drop_values(formula *f)
 {
     free(f->value);

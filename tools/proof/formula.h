@@ -59,6 +59,7 @@ void formula_jets(formula *f, const jet *variables, jet out[3]);
 
 /* Like formula_jets, with room for the values of all formula_steps(f) steps. */
 int formula_steps(const formula *f);
+bool formula_depends(const formula *f, int variable);
 void formula_drop_values(formula *f); /* formula_jets may not be called after it */
 void formula_jets_in(const formula *f, const jet *variables, jet *value, jet out[3]);
 

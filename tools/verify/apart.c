@@ -17,70 +17,73 @@ static bool is_axis(const double n[3])
 
 /* --- A cell ----------------------------------------------------------------------------------- */
 
-/* du x dv of one side at the centre. */
-static void normal(const jet x[3], double n[3])
+/* The axes from A to B that are tried after the hint: the direction of the centres, and the normals
+ * of single pieces. */
+enum { AXES = 3 };
+
+/* The box around the middles of some pieces. */
+typedef struct middles {
+    double lo[3], hi[3], normal[3];
+} middles;
+
+/* du x dv of a piece, from the means of the corners of each edge. */
+static void take_normal(double corner[8][3], double n[3])
 {
-    double u[3], v[3];
-    for (int i = 0; i < 3; ++i)
-        u[i] = ld_interval_mid(x[i].d[U]), v[i] = ld_interval_mid(x[i].d[V]);
+    double u[3] = {0, 0, 0}, v[3] = {0, 0, 0};
+    for (int k = 0; k < 8; ++k)
+        for (int i = 0; i < 3; ++i) {
+            u[i] += (k & 1) != 0 ? corner[k][i] : -corner[k][i];
+            v[i] += (k & 2) != 0 ? corner[k][i] : -corner[k][i];
+        }
     for (int i = 0; i < 3; ++i) {
         const int j = (i + 1) % 3, l = (i + 2) % 3;
         n[i] = u[j] * v[l] - u[l] * v[j];
     }
 }
 
-/* Computes the middle of the box around the centres of some of a side's pieces, of 8 to 15 if there
- * are more. Pieces without an enclosure are left out. */
-static void centre_of(prover *p, const cell *c, int side, double x[3])
+static void take_middles(prover *p, const cell *c, int side, middles *m)
 {
-    double lo[3] = {INFINITY, INFINITY, INFINITY}, hi[3] = {-INFINITY, -INFINITY, -INFINITY};
+    *m = (middles){{INFINITY, INFINITY, INFINITY}, {-INFINITY, -INFINITY, -INFINITY}, {0, 0, 0}};
     const size_t count = c->count[side], step = count > 8 ? count / 8 : 1;
     for (size_t k = 0; k < count; k += step) {
         place of;
+        form x;
+        split unused;
+        double corner[8][3], mid[3];
         const box3 where = cell_area(p, c, side, k, &of);
-        const kept *at = kept_look(p->kept, &of, &where);
-        for (int i = 0; i < 3 && at->result == ENCLOSED; ++i) {
-            const double v = ld_interval_mid(at->centre[i].v);
-            if (v < lo[i]) lo[i] = v;
-            if (v > hi[i]) hi[i] = v;
+        if (look_net(p->known, &of, &where, &x, &unused) != ENCLOSED || x.net == NULL) continue;
+        net_points(&x, corner, mid);
+        for (int i = 0; i < 3; ++i) {
+            m->lo[i] = proof_smaller(m->lo[i], mid[i]);
+            m->hi[i] = proof_larger(m->hi[i], mid[i]);
         }
+        if (count == 1) take_normal(corner, m->normal);
     }
-    for (int i = 0; i < 3; ++i) x[i] = 0.5 * lo[i] + 0.5 * hi[i];
 }
-
-/* The axes that are tried: the hint, the direction of the centres, and both normals of single
- * pieces; all from A to B. */
-enum { AXES = 4 };
 
 static void find_axes(prover *p, const cell *c, double n[AXES][3])
 {
-    double x[2][3];
-    memcpy(n[0], p->axis, sizeof n[0]);
-    for (int side = 0; side < 2; ++side) centre_of(p, c, side, x[side]);
-    for (int i = 0; i < 3; ++i) n[1][i] = x[1][i] - x[0][i];
+    middles m[2];
+    for (int side = 0; side < 2; ++side) take_middles(p, c, side, &m[side]);
+    for (int i = 0; i < 3; ++i)
+        n[0][i] = 0.5 * m[1].lo[i] + 0.5 * m[1].hi[i] - (0.5 * m[0].lo[i] + 0.5 * m[0].hi[i]);
     for (int side = 0; side < 2; ++side) {
-        double *m = n[2 + side];
-        place of;
-        const box3 where = cell_area(p, c, side, 0, &of);
-        const kept *k = kept_look(p->kept, &of, &where);
-        memset(m, 0, sizeof n[0]);
-        if (c->count[side] == 1 && k->result == ENCLOSED) normal(k->centre, m);
-        const double sign = m[0] * n[1][0] + m[1] * n[1][1] + m[2] * n[1][2];
-        for (int i = 0; i < 3 && sign < 0; ++i) m[i] = -m[i];
+        double *to = n[1 + side], sign = 0;
+        for (int i = 0; i < 3; ++i) sign += m[side].normal[i] * n[0][i];
+        for (int i = 0; i < 3; ++i) to[i] = sign < 0 ? -m[side].normal[i] : m[side].normal[i];
     }
 }
 
-/* Finds the variable that the projections depend on most, among those that can be divided; the
- * widest of equals. False: none can be divided. */
+/* The variable that the bounds depend on most, for what can be divided; the widest of equals.
+ * False: nothing can be divided. */
 static bool widest(const cell *c, const apart_trial *tried, cut *by)
 {
     double most = -1, width = 0;
-    const double time = proof_larger(tried->size[0][T], tried->size[1][T]);
     for (int side = 0; side < 3; ++side)
         for (int j = 0; j < (side < 2 ? 2 : 1); ++j) {
             const double lo = side < 2 ? c->lo[side][j] : c->t[0];
             const double hi = side < 2 ? c->hi[side][j] : c->t[1];
-            const double here = side < 2 ? tried->size[side][j] : time;
+            const double here = side < 2 ? tried->size[side][j] : tried->time;
             if (!(hi > lo) || (!(here > most) && !(here == most && hi - lo > width))) continue;
             *by = (cut){side, j, NAN};
             most = here, width = hi - lo;
@@ -88,65 +91,103 @@ static bool widest(const cell *c, const apart_trial *tried, cut *by)
     return width > 0;
 }
 
-/* Chooses the side of many pieces whose projection is longer, or time if the pieces depend on it
- * more. */
+/* The side of many pieces with the greater shadow, or time if the pieces depend on it more. */
 static bool divide_many(const cell *c, const apart_trial *tried, cut *by)
 {
     double size[2];
     for (int side = 0; side < 2; ++side) size[side] = c->count[side] > 1 ? tried->width[side] : -1;
     const int larger = size[1] > size[0];
-    const double time = proof_larger(tried->size[0][T], tried->size[1][T]);
-    *by = (cut){2 * time > size[larger] && c->t[0] < c->t[1] ? 2 : larger, 0, NAN};
+    const double mid = middle(c->t[0], c->t[1]);
+    const bool has_time = c->t[0] < mid && mid < c->t[1];
+    *by = (cut){has_time && 2 * tried->time > size[larger] ? 2 : larger, 0, NAN};
     return true;
 }
 
-/* Tests whether the points at the centres are surely too near, or a single piece has to be divided
- * at the end of a part. */
+static bool divide_cell(const cell *c, const apart_trial *tried, cut *by)
+{
+    const bool is_single = c->count[0] == 1 && c->count[1] == 1;
+    return is_single ? widest(c, tried, by) : divide_many(c, tried, by);
+}
+
+/* The least distance of some corners at one time, and an upper bound of it. */
+static void take_distance(double a[8][3], double b[8][3], double off, double *least, double *upper)
+{
+    *least = INFINITY;
+    for (int k = 0; k < 8; ++k)
+        for (int l = k & 4; l < (k & 4) + 4; ++l) {
+            double sum = 0;
+            for (int i = 0; i < 3; ++i) sum += (b[l][i] - a[k][i]) * (b[l][i] - a[k][i]);
+            *least = proof_smaller(*least, sqrt(sum));
+        }
+    *upper = *least * (1 + 0x1p-40) + off * (1 + 0x1p-40);
+}
+
+/* Whether two points, corners of the cell, are surely nearer, or a single piece has parts. */
 static apart_outcome look_at_pieces(prover *p, const cell *c, cut *by, double *found)
 {
-    ld_interval x[2][3];
+    double corner[2][8][3], mid[3], off = 0, upper;
+    bool is_known = true;
     for (int side = 0; side < 2; ++side) {
         place of;
+        form x;
+        split parts;
         const box3 where = cell_area(p, c, side, 0, &of);
-        const kept *k = kept_look(p->kept, &of, &where);
-        const split *parts = &k->divide;
-        if (k->result == ENCLOSED_EMPTY) return APART;
-        const char *why = shadow_why_unknown(k->result);
+        const enclosed result = look_net(p->known, &of, &where, &x, &parts);
+        if (result == ENCLOSED_EMPTY) return APART;
+        const char *why = shadow_why_unknown(result);
         if (why != NULL) return apart_fail(p, c, INFINITY, why);
-        *by = (cut){parts->along == T ? 2 : side, parts->along % T, parts->at};
-        if (k->result == ENCLOSED_SPLIT) return DIVIDE;
-        for (int i = 0; i < 3; ++i) x[side][i] = k->centre[i].v;
+        *by = (cut){parts.along == T ? 2 : side, parts.along % T, parts.at};
+        if (result == ENCLOSED_SPLIT) return DIVIDE;
+        if (x.net != NULL) off += net_points(&x, corner[side], mid);
+        is_known = is_known && x.net != NULL;
     }
-    for (int i = 0; i < 3; ++i) x[0][i] = ld_interval_sub(x[1][i], x[0][i]);
-    const ld_interval length = apart_length(x[0]);
-    *found = ld_interval_mid(length);
     by->side = -1;
-    return length.hi < p->apart ? apart_fail(p, c, *found, "two points of it are nearer") : DIVIDE;
+    if (!is_known) return DIVIDE;
+    take_distance(corner[0], corner[1], off, found, &upper);
+    return upper < p->apart ? apart_fail(p, c, *found, "two points of it are nearer") : DIVIDE;
+}
+
+/* Tries an axis, and keeps how to divide the cell by the best of them. */
+static apart_outcome try_axis(prover *p, const cell *c, const double n[3], double *best, cut *by,
+                              bool *some)
+{
+    apart_trial tried;
+    if (!is_axis(n)) return DIVIDE;
+    const apart_outcome o = apart_by_axis(p, c, n, &tried);
+    if (o != DIVIDE) return o;
+    if (!isnan(tried.cut)) {
+        *by = (cut){2, 0, tried.cut};
+        *best = INFINITY, *some = true;
+    } else if (tried.left > *best || !*some) {
+        *best = tried.left;
+        *some = divide_cell(c, &tried, by);
+    }
+    return o;
 }
 
 static apart_outcome test(prover *p, const cell *c, cut *by)
 {
     const bool is_single = c->count[0] == 1 && c->count[1] == 1;
     double n[AXES][3], best = -INFINITY, found = INFINITY;
-    apart_outcome o = is_single ? look_at_pieces(p, c, by, &found) : DIVIDE;
-    if (o != DIVIDE || (is_single && by->side >= 0)) return o;
-    apart_trial tried = {.left = -INFINITY};
-    bool some = is_single ? widest(c, &tried, by) : divide_many(c, &tried, by);
+    apart_trial tried = {.left = -INFINITY, .cut = NAN};
+    bool some = false;
+    apart_outcome o = try_axis(p, c, p->axis, &best, by, &some);
+    if (o != DIVIDE || best == INFINITY) return o;
     if (is_single) {
+        cut parts;
+        o = look_at_pieces(p, c, &parts, &found);
+        if (o != DIVIDE) return o;
+        if (parts.side >= 0) return *by = parts, DIVIDE;
         o = apart_by_centres(p, c, &tried);
         if (o != DIVIDE) return o;
-        best = tried.left;
-        if (best > -INFINITY) some = widest(c, &tried, by);
+        if (tried.left > -INFINITY) best = 0, some = divide_cell(c, &tried, by);
     }
     find_axes(p, c, n);
-    for (int m = 0; m < AXES; ++m) {
-        if (!is_axis(n[m])) continue;
-        o = apart_by_axis(p, c, n[m], &tried);
+    for (int m = 0; m < AXES && best < INFINITY; ++m) {
+        o = try_axis(p, c, n[m], &best, by, &some);
         if (o != DIVIDE) return o;
-        if (!(tried.left > best)) continue;
-        best = tried.left;
-        some = is_single ? widest(c, &tried, by) : divide_many(c, &tried, by);
     }
+    if (!some) some = divide_cell(c, &tried, by);
     return some ? DIVIDE : apart_fail(p, c, found, "it is too small to be divided");
 }
 
@@ -168,7 +209,7 @@ static bool prove(prover *p, const cell *c, int depth)
 void prover_forget(prover *p)
 {
     p->centre_count = 0;
-    p->boxes = p->wasted = 0;
+    p->wasted = 0;
 }
 
 bool prove_apart(prover *p, const cell *c)

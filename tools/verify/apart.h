@@ -21,12 +21,11 @@ typedef struct prover {
     double apart; /* what is to be proved, a little enlarged for maps left out; length */
     unsigned long tests, tests_most; /* of this leaf */
     double axis[3];                  /* hint; 0: none */
-    kept *kept;                      /* KEPT of them */
-    areas areas[2];                  /* of either side; to be freed */
-    centre centres[2];               /* of either side, as guessed in this leaf or before */
+    memory *known;
+    areas areas[2];    /* of either side; to be freed */
+    centre centres[2]; /* of either side, as guessed in this leaf or before */
     int centre_count;
-    size_t boxes;     /* boxes tested along axes */
-    size_t wasted;    /* boxes tested about centres since a centre last proved a cell */
+    size_t wasted;    /* boxes of centres, since one of them parted a cell */
     bool has_guessed; /* in this leaf */
     cell tried;       /* of the last test, and */
     aim aim;          /* what it tried there, for A */
@@ -35,8 +34,7 @@ typedef struct prover {
     const char *why;  /* this */
 } prover;
 
-/* Forgets what earlier leaves have shown, so that a leaf takes the same tests in any division into
- * shares. */
+/* Forgets what leaves before have told, so that a leaf's effort depends on no other share. */
 void prover_forget(prover *p);
 
 /* Makes `c` all of both pieces, if they are single. */
@@ -53,7 +51,7 @@ typedef struct cut {
 bool cell_split(const prover *p, const cell *c, const cut *by, cell half[2]);
 
 /* Proves that no two points of the cell at one time are nearer than p->apart. False: p->worst,
- * p->found and p->why say where and why not. */
+ * found and why tell. */
 bool prove_apart(prover *p, const cell *c);
 
 #endif

@@ -7,9 +7,9 @@
 
 #include "tools/verify/apart_internal.h"
 
-/* Limits of divisions of a side's boxes, along one axis and about a centre. A centre may prove all
- * of a surface at once, and is worth more. */
-enum { REFINEMENTS = 96, REFINEMENTS_ROUND = 1024 };
+/* Divisions of a side's boxes along one axis, or about a centre, about which all of a surface may
+ * be proved at once. */
+enum { STEPS = 96, STEPS_ROUND = 1024 };
 
 apart_outcome apart_fail(prover *p, const cell *c, double found, const char *why)
 {
@@ -19,88 +19,111 @@ apart_outcome apart_fail(prover *p, const cell *c, double found, const char *why
     return STUCK;
 }
 
-ld_interval apart_length(const ld_interval x[3])
+/* Where an axis does it at one end of the time alone, what changes in between is due to time. Else
+ * what is linear in time needs no division. */
+static void take_trial(const prover *p, const aim a[2], const limits r[2], double limit,
+                       apart_trial *tried)
 {
-    const ld_interval sum = ld_interval_add(
-        ld_interval_add(ld_interval_sqr(x[0]), ld_interval_sqr(x[1])), ld_interval_sqr(x[2]));
-    return ld_interval_sqrt(sum);
-}
-
-static void take_aims(prover *p, const cell *c, const double n[3], aim a[2])
-{
-    place of;
-    const box3 where = cell_area(p, c, 0, 0, &of);
-    const kept *k = kept_look(p->kept, &of, &where);
-    double slope = 0;
-    for (int i = 0; i < 3 && k->result == ENCLOSED; ++i)
-        slope += n[i] * ld_interval_mid(k->centre[i].d[T]);
-    if (!(fabs(slope) < INFINITY)) slope = 0;
+    const double before = r[0].ends[0] + r[1].ends[0], after = r[0].ends[1] + r[1].ends[1];
+    const bool turns = (-before > limit) != (-after > limit);
+    tried->time = turns && fabs(after - before) < INFINITY ? 0.5 * fabs(after - before) : 0;
     for (int side = 0; side < 2; ++side) {
-        const double sign = side == 0 ? 1 : -1;
-        a[side] = (aim){
-            {sign * n[0], sign * n[1], sign * n[2]}, sign * slope, middle(c->t[0], c->t[1]), NULL};
-    }
-}
-
-static void take_trial(const prover *p, double limit, apart_trial *tried)
-{
-    const reach a = areas_reach(&p->areas[0]), b = areas_reach(&p->areas[1]);
-    const double most = -(a.value + b.value) - limit, low = -(a.bound + b.bound) - limit;
-    tried->left = most > 0 ? low / most : -INFINITY;
-    for (int side = 0; side < 2; ++side) {
-        double lo = INFINITY, *size = tried->size[side];
-        memset(size, 0, sizeof tried->size[side]);
+        double *most = tried->size[side], bend = 0;
+        most[U] = most[V] = 0;
         for (size_t k = 0; k < p->areas[side].count; ++k) {
-            const shadow *s = &p->areas[side].at[k].s;
-            lo = proof_smaller(lo, s->lo);
-            for (int j = 0; j < VARIABLES; ++j) size[j] = proof_larger(size[j], s->size[j]);
+            double size[VARIABLES];
+            areas_sizes(&p->areas[side], k, &a[side], size);
+            for (int j = 0; j < T; ++j) most[j] = proof_larger(most[j], size[j]);
+            bend = proof_larger(bend, size[T]);
         }
-        tried->width[side] = (side == 0 ? a.bound : b.bound) - lo;
+        tried->time += bend;
+        tried->width[side] = r[side].upper[0] - r[side].least;
     }
 }
 
-/* The excess of a bound, most - low, falls about as 1 / step where two variables are divided.
- * Returns whether it will still be too large, or cost too much, at the last step. */
-static bool is_hopeless(int step, int steps_most, double low, double most)
+/* Bounds lose what they lack, most - low, about as 1 / step where two variables are divided, and
+ * distances from a centre, whose bounds are of third order, as step^-1.5: gives up where they will
+ * lack too much, or cost too much, when they are done. */
+static bool is_hopeless(int step, bool is_round, double low, double most)
 {
     const double lacks = (most - low) / most;
-    return step >= steps_most || (step >= 4 && lacks * step > 2 * steps_most);
+    if (is_round)
+        return step >= STEPS_ROUND || (step >= 64 && step * cbrt(lacks * lacks) > 2 * STEPS_ROUND);
+    return step >= STEPS || (step >= 4 && step * lacks > 2 * STEPS);
+}
+
+/* What is left over between the sides, at least, and for the points that are known; and which
+ * coefficient has the least. */
+typedef struct margin {
+    double low, most;
+    int worst;
+} margin;
+
+/* Lemma. At each time, -(A + B) is a convex combination of its coefficients. */
+static margin take_margin(const limits r[2], double limit)
+{
+    margin m = {INFINITY, INFINITY, 0};
+    for (int k = 0; k < NET_TIMES; ++k) {
+        const double sum = proof_up(r[0].upper[k] + r[1].upper[k]);
+        if (!(-sum - limit >= m.low)) m.low = -sum - limit, m.worst = k;
+    }
+    for (int end = 0; end < 2; ++end)
+        m.most = proof_smaller(m.most, -(r[0].ends[end] + r[1].ends[end]) - limit);
+    return m;
+}
+
+static const char *begin_areas(prover *p, const cell *c, int side, const aim *a)
+{
+    const char *why = NULL;
+    areas_begin(&p->areas[side], p->known);
+    for (size_t k = 0; k < c->count[side] && why == NULL; ++k) {
+        place of;
+        box3 where = cell_area(p, c, side, k, &of);
+        if (a->about != NULL && !isnan(a->at)) where.lo[T] = where.hi[T] = a->at;
+        why = areas_add(&p->areas[side], &of, &where, a);
+    }
+    return why;
 }
 
 /* Lemma. |f(B) - f(A)| <= change |B - A| for n.x, which changes by |n| for a unit of length, and
- * for distances (round.c): where f(B) - f(A) >= change apart over the cell, no two points of it are
- * nearer. f(A) is at most what A reaches, and -f(B) what B reaches in its own direction. The sides
- * are divided one by one, since neither bound depends on the other side. */
+ * for distances (round.c): where f(B) - f(A) >= change apart at each time of the cell, no two
+ * points of it are nearer. f(A) is at most what A reaches, and -f(B) what B reaches in its own
+ * direction. The sides are divided one by one, since neither bound depends on the other side. */
 static apart_outcome try_aims(prover *p, const cell *c, const aim a[2], double change_upper,
                               apart_trial *tried)
 {
     const double limit = ld_interval_mul(ld_interval_of(change_upper), ld_interval_of(p->apart)).hi;
     p->tried = *c;
     p->aim = a[0];
+    tried->left = -INFINITY;
+    tried->cut = NAN;
     for (int side = 0; side < 2; ++side) {
-        p->areas[side].count = 0;
-        p->areas[side].memory = p->kept;
-        for (size_t k = 0; k < c->count[side]; ++k) {
-            place of;
-            const box3 where = cell_area(p, c, side, k, &of);
-            const char *why = areas_add(&p->areas[side], &of, &where, &a[side]);
-            if (why != NULL) return apart_fail(p, c, INFINITY, why);
-        }
+        const char *why = begin_areas(p, c, side, &a[side]);
+        if (why != NULL) return apart_fail(p, c, INFINITY, why);
+        tried->cut = isnan(p->areas[side].cut) ? tried->cut : p->areas[side].cut;
     }
-    take_trial(p, limit, tried);
-    const int steps = a[0].about != NULL ? REFINEMENTS_ROUND : REFINEMENTS;
     for (int step = 0;; ++step) {
-        if (p->areas[0].count == 0 || p->areas[1].count == 0)
-            return APART; /* the surface does not exist there */
-        const reach r[2] = {areas_reach(&p->areas[0]), areas_reach(&p->areas[1])};
-        const ld_interval sum =
-            ld_interval_add(ld_interval_of(r[0].bound), ld_interval_of(r[1].bound));
-        if (-sum.hi >= limit) return APART;
-        const double most = -(r[0].value + r[1].value) - limit, low = -sum.hi - limit;
-        if (!(most > 0) || is_hopeless(step, steps, low, most)) return DIVIDE;
-        const int side = r[1].bound - r[1].value > r[0].bound - r[0].value;
+        if (!isnan(tried->cut)) return DIVIDE;
+        if (p->areas[0].count == 0 || p->areas[1].count == 0) return APART; /* it does not exist */
+        const limits r[2] = {areas_limits(&p->areas[0]), areas_limits(&p->areas[1])};
+        const margin m = take_margin(r, limit);
+        if (m.low >= 0) return APART;
+        if (step == 0) {
+            tried->left = m.most > 0 ? m.low / m.most : -INFINITY;
+            take_trial(p, a, r, limit, tried);
+        }
+        const double slips =
+            0.5 * (a[0].slip / fabs(r[0].ends[0]) + a[1].slip / fabs(r[1].ends[0]));
+        if (m.most > 0 && slips > 0.5 * m.most) return tried->time = INFINITY, DIVIDE;
+        if (!(m.most > 0) || is_hopeless(step, a[0].about != NULL, m.low, m.most)) return DIVIDE;
+        double lacks[2];
+        for (int side = 0; side < 2; ++side)
+            lacks[side] =
+                r[side].upper[m.worst] -
+                (r[side].ends[0] + (r[side].ends[1] - r[side].ends[0]) * m.worst / (NET_TIMES - 1));
+        const int side = lacks[1] > lacks[0];
         bool divided;
-        const char *why = areas_divide(&p->areas[side], r[side].worst, &a[side], &divided);
+        const char *why = areas_divide(&p->areas[side], r[side].worst[m.worst], &a[side], &divided);
         if (why != NULL) return apart_fail(p, c, INFINITY, why);
         if (!divided) return DIVIDE;
     }
@@ -108,40 +131,40 @@ static apart_outcome try_aims(prover *p, const cell *c, const aim a[2], double c
 
 apart_outcome apart_by_axis(prover *p, const cell *c, const double n[3], apart_trial *tried)
 {
-    const ld_interval x[3] = {ld_interval_of(n[0]), ld_interval_of(n[1]), ld_interval_of(n[2])};
-    aim a[2];
-    take_aims(p, c, n, a);
-    const apart_outcome o = try_aims(p, c, a, apart_length(x).hi, tried);
-    p->boxes += p->areas[0].count + p->areas[1].count;
-    return o;
+    ld_interval square = ld_interval_of(0);
+    aim a[2] = {{.about = NULL}, {.about = NULL}};
+    for (int i = 0; i < 3; ++i) {
+        square = ld_interval_add(square, ld_interval_sqr(ld_interval_of(n[i])));
+        a[0].n[i] = n[i], a[1].n[i] = -n[i];
+    }
+    return try_aims(p, c, a, ld_interval_sqrt(square).hi, tried);
 }
 
-/* Tests of a leaf before the centres of its surfaces are guessed; and how many boxes may be tested
- * about centres without a proof, in addition to 1 / WASTE_PART of all boxes tested along axes. */
-enum { TESTS_BEFORE_CENTRES = 6, WASTE_MOST = 4096, WASTE_PART = 64 };
+/* Tests of a leaf before its surfaces' centres are guessed; and boxes that centres may waste. */
+enum { TESTS_BEFORE_CENTRES = 6, WASTE_MOST = 1 << 15 };
 
 static void guess_centres(prover *p, const cell *c)
 {
-    p->has_guessed = true;
-    p->centre_count = 0;
+    bool found = true;
     for (int side = 0; side < 2; ++side) {
         const place of = cell_piece(p, side, c->first[side]);
-        p->centre_count +=
-            centre_guess(p->kept, &of, middle(c->t[0], c->t[1]), &p->centres[p->centre_count]);
+        found = found && centre_guess(p->known, &of, middle(c->t[0], c->t[1]), &p->centres[side]);
     }
+    p->has_guessed = true;
+    p->centre_count = found && centre_is_shared(&p->centres[0], &p->centres[1]) ? 2 : 0;
 }
 
 apart_outcome apart_by_centres(prover *p, const cell *c, apart_trial *tried)
 {
     place of[2];
     box3 where[2];
-    if (p->wasted > WASTE_MOST + p->boxes / WASTE_PART) return DIVIDE;
+    if (p->wasted > WASTE_MOST) return DIVIDE;
     if (!p->has_guessed && p->tests > TESTS_BEFORE_CENTRES) guess_centres(p, c);
     for (int side = 0; side < 2; ++side) where[side] = cell_area(p, c, side, 0, &of[side]);
     for (int k = 0; k < p->centre_count; ++k) {
         aim a[2];
         double change_upper;
-        if (!centre_aims(p->kept, &p->centres[k], of, where, a, &change_upper)) continue;
+        if (!centre_aims(p->known, &p->centres[k], of, where, a, &change_upper)) continue;
         const apart_outcome o = try_aims(p, c, a, change_upper, tried);
         p->wasted = o == APART ? 0 : p->wasted + p->areas[0].count + p->areas[1].count;
         if (o != DIVIDE) return o;

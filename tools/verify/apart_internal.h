@@ -10,12 +10,13 @@
 
 typedef enum apart_outcome { APART, DIVIDE, STUCK } apart_outcome;
 
-/* What the undivided pieces show of an axis that does not separate them. */
+/* What is known of an axis that does not do it, from the undivided pieces. */
 typedef struct apart_trial {
-    double left; /* gap that is missing, by the gap between the centres */
-    double size[2]
-               [VARIABLES]; /* estimate of how much a side's projection depends on each variable */
-    double width[2];        /* of the bounds of each side */
+    double left;       /* below 0: what is missing, by what is left over between known points */
+    double size[2][2]; /* a piece's dependence on u and v, at most, about */
+    double time;       /* the dependence of both on time */
+    double width[2];   /* of the bounds of each side */
+    double cut;        /* a time at which the cell has to be divided; NAN: none */
 } apart_trial;
 
 /* Returns piece k of a side, in the order of the prover. */
@@ -28,9 +29,7 @@ box3 cell_area(const prover *p, const cell *c, int side, size_t k, place *of);
 /* Keeps the cell and why it is not proved; returns STUCK. */
 apart_outcome apart_fail(prover *p, const cell *c, double found, const char *why);
 
-ld_interval apart_length(const ld_interval x[3]);
-
-/* Tests one axis, which need not be a unit vector, and describes the result in *tried. */
+/* Tests one axis, which need not be a unit vector; what is known of it then is in *tried. */
 apart_outcome apart_by_axis(prover *p, const cell *c, const double n[3], apart_trial *tried);
 
 /* Tests the centres of both surfaces of a cell of single pieces. */

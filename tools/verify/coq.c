@@ -44,6 +44,22 @@ static bool is_told(const place *of, const box3 *where)
     return told;
 }
 
+/* Takes the line in time midway between both sides, and how far either reaches from it, at most, by
+ * its coefficients, of which those of a line are its values at equal distances. */
+static void take_line(const double *const upper[2], const double t[2], goal *g, double far[2])
+{
+    const int last = NET_TIMES - 1;
+    const double rise = 0.5 * (upper[0][last] - upper[0][0] - (upper[1][last] - upper[1][0]));
+    g->slope = t[1] > t[0] ? rise / (t[1] - t[0]) : 0;
+    g->mid = 0.5 * t[0] + 0.5 * t[1];
+    far[0] = far[1] = -INFINITY;
+    for (int k = 0; k <= last; ++k) {
+        const double line = g->slope * (t[0] + (t[1] - t[0]) * k / last - g->mid);
+        far[0] = proof_larger(far[0], upper[0][k] - line);
+        far[1] = proof_larger(far[1], upper[1][k] + line);
+    }
+}
+
 /* Takes boxes of either side that the prover has enclosed. What is left over between them is
  * divided among both, so that Coq's bounds may be a little wider. False: no axis parted the cell,
  * or the formulas cannot be told. */
@@ -51,20 +67,22 @@ static bool take_goal(coq *q, const prover *p, goal *g)
 {
     const aim *a = &p->aim;
     double far[2];
+    const double *upper[2];
     ld_interval square = ld_interval_of(0);
     if (a->about != NULL || p->areas[0].count == 0 || p->areas[1].count == 0) return false;
-    *g = (goal){.leaf = q->leaves, .slope = a->slope, .mid = a->mid, .apart = p->apart};
+    *g = (goal){.leaf = q->leaves, .apart = p->apart};
     for (int side = 0; side < 2; ++side) {
         const area *drawn = &p->areas[side].at[draw(q, p->areas[side].count)];
         g->of[side] = drawn->of;
         g->where[side] = drawn->where;
-        far[side] = drawn->s.hi;
+        upper[side] = drawn->upper;
         if (!is_told(&drawn->of, &drawn->where)) return false;
     }
     for (int i = 0; i < 3; ++i) {
         g->n[i] = a->n[i];
         square = ld_interval_add(square, ld_interval_sqr(ld_interval_of(a->n[i])));
     }
+    take_line(upper, p->tried.t, g, far);
     const double left = -(far[0] + far[1]) - ld_interval_sqrt(square).hi * p->apart;
     g->upper = far[0] + 0.49 * left;
     g->lower = -(far[1] + 0.49 * left);

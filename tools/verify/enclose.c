@@ -33,11 +33,17 @@ static bool divides(const piece *p, const box3 *b, split *divide)
     return best < INFINITY;
 }
 
+const piece *enclose_piece(const place *p, size_t stage_index)
+{
+    const stage *g = &p->of->stages[p->chain->stages[stage_index]];
+    return &g->pieces[stage_index == 0 ? p->piece : 0];
+}
+
 /* Finds the part of a piece in which the whole box is. Lemma. Where there is none and no end of a
  * part is inside of the box, each part has at most a face in common with it; then neighbouring
  * boxes hold that face, since parts have a size (statement_stage.c), or it is an end of the claim's
  * times (touches_end), or nothing is there. */
-static enclosed choose(const piece *p, const box3 *b, const part **found, split *divide)
+enclosed enclose_choose(const piece *p, const box3 *b, const part **found, split *divide)
 {
     for (size_t k = 0; k < p->count; ++k)
         if (holds(&p->parts[k], b)) return *found = &p->parts[k], ENCLOSED;
@@ -46,7 +52,7 @@ static enclosed choose(const piece *p, const box3 *b, const part **found, split 
 
 /* Returns the next part after `p` that the whole box is in, or NULL: boxes without a size, and ends
  * that are known to an ulp, may be in several. */
-static const part *next_part(const piece *all, const part *p, const box3 *b)
+const part *enclose_next_part(const piece *all, const part *p, const box3 *b)
 {
     for (++p; p < all->parts + all->count; ++p)
         if (holds(p, b)) return p;
@@ -67,13 +73,14 @@ static bool touches_end(const place *p, const piece *all, const box3 *b)
     return false;
 }
 
-/* --- Chains ----------------------------------------------------------------------------------- */
-
-static const piece *piece_of(const place *p, size_t stage_index)
+enclosed enclose_part(const place *p, const box3 *where, const part **found, split *divide)
 {
-    const stage *g = &p->of->stages[p->chain->stages[stage_index]];
-    return &g->pieces[stage_index == 0 ? p->piece : 0];
+    const piece *all = enclose_piece(p, 0);
+    const enclosed result = enclose_choose(all, where, found, divide);
+    return result == ENCLOSED_EMPTY && touches_end(p, all, where) ? ENCLOSED_UNSAID : result;
 }
+
+/* --- Chains ----------------------------------------------------------------------------------- */
 
 /* Computes a formula of an instance. Steps whose variables have not changed since the last time are
  * not computed again: most steps of a motion depend on time alone. */
@@ -107,8 +114,9 @@ static void compute(const place *p, size_t stage_index, const part *first, const
                     jet centre[3])
 {
     compute_part(p, stage_index, first->f, where, at, given, out, centre);
-    const piece *all = piece_of(p, stage_index);
-    for (const part *q = next_part(all, first, in); q != NULL; q = next_part(all, q, in)) {
+    const piece *all = enclose_piece(p, stage_index);
+    for (const part *q = enclose_next_part(all, first, in); q != NULL;
+         q = enclose_next_part(all, q, in)) {
         jet out2[3], centre2[3];
         compute_part(p, stage_index, q->f, where, at, given, out2, centre2);
         for (int i = 0; i < 3; ++i) {
@@ -123,7 +131,7 @@ static bool is_undefined(const jet x[3])
     return x[0].is_undefined || x[1].is_undefined || x[2].is_undefined;
 }
 
-/* Sets x, y and z to the whole line. */
+/* Lets x, y and z be anything. */
 static void forget(jet x[3])
 {
     const ld_interval all = ld_interval_entire();
@@ -151,8 +159,7 @@ enclosed enclose(const place *p, const box3 *where, const double at[3], jet out[
     }
     formula_boxes given = {wide, narrow, offset, true, 0};
     const part *found;
-    enclosed result = choose(piece_of(p, 0), where, &found, divide);
-    if (result == ENCLOSED_EMPTY && touches_end(p, piece_of(p, 0), where)) return ENCLOSED_UNSAID;
+    enclosed result = enclose_part(p, where, &found, divide);
     if (result != ENCLOSED) return result;
     compute(p, 0, found, where, where, at, &given, out, centre);
     bool undefined = is_undefined(out);
@@ -160,7 +167,7 @@ enclosed enclose(const place *p, const box3 *where, const double at[3], jet out[
     const box3 times = {{-INFINITY, -INFINITY, where->lo[T]}, {INFINITY, INFINITY, where->hi[T]}};
     for (size_t k = 1; k <= p->maps && !is_undefined(centre); ++k) {
         for (int i = 0; i < 3; ++i) wide[i] = out[i], narrow[i] = centre[i];
-        result = choose(piece_of(p, k), &times, &found, divide);
+        result = enclose_choose(enclose_piece(p, k), &times, &found, divide);
         if (result != ENCLOSED) return result == ENCLOSED_EMPTY ? ENCLOSED_UNSAID : result;
         compute(p, k, found, &times, where, at, &given, out, centre);
         undefined = undefined || is_undefined(out);
@@ -172,7 +179,7 @@ enclosed enclose(const place *p, const box3 *where, const double at[3], jet out[
 
 void piece_box(const place *p, box3 *all)
 {
-    const piece *whole = piece_of(p, 0);
+    const piece *whole = enclose_piece(p, 0);
     for (int j = 0; j < T; ++j) {
         all->lo[j] = INFINITY, all->hi[j] = -INFINITY;
         for (size_t k = 0; k < whole->count; ++k) {
@@ -180,101 +187,4 @@ void piece_box(const place *p, box3 *all)
             if (whole->parts[k].hi[j] > all->hi[j]) all->hi[j] = whole->parts[k].hi[j];
         }
     }
-}
-
-/* --- Rigid maps ------------------------------------------------------------------------------- */
-
-/* Lemma. A second derivative by two of x, y and z that is exactly 0 for all x, y and z (the whole
- * line), for all of which the map is defined, makes the map affine in them. */
-static bool is_affine(const part *p, ld_interval t, jet room[])
-{
-    jet variables[4] = {[3] = jet_constant(3, t)}, out[3];
-    bool affine = true;
-    for (int k = 0; k < 3; ++k) variables[k] = jet_variable(3, k, ld_interval_entire());
-    formula_jets_in(p->f, variables, room, out);
-    for (int i = 0; i < 3; ++i)
-        for (int k = 0; k < 3; ++k)
-            for (int l = k; l < 3; ++l) affine = affine && ld_interval_is(out[i].h[k][l], 0);
-    return affine && !is_undefined(out);
-}
-
-/* Computes the columns of J as jets of t: where an affine map takes the unit vectors, minus where
- * it takes 0. */
-static void columns(const part *p, ld_interval t, jet room[], jet j[3][3])
-{
-    jet origin[3];
-    for (int k = -1; k < 3; ++k) {
-        jet variables[4], *out = k < 0 ? origin : j[k];
-        for (int i = 0; i < 3; ++i) variables[i] = jet_constant(1, ld_interval_of(i == k));
-        variables[3] = jet_variable(1, 0, t);
-        formula_jets_in(p->f, variables, room, out);
-        for (int i = 0; i < 3 && k >= 0; ++i) out[i] = jet_sub(&out[i], &origin[i]);
-    }
-}
-
-/* Returns the element i, k of J^T J - 1. */
-static jet gram(jet j[3][3], int i, int k)
-{
-    jet sum = jet_constant(1, ld_interval_of(i == k ? -1 : 0));
-    for (int l = 0; l < 3; ++l) {
-        const jet both = jet_mul(&j[i][l], &j[k][l]);
-        sum = jet_add(&sum, &both);
-    }
-    return sum;
-}
-
-/* Lemma. The largest sum of a row bounds the norm of a symmetric matrix. */
-static double deviation(const part *p, double lo, double hi, jet room[])
-{
-    jet wide[3][3], narrow[3][3];
-    const ld_interval t = ld_interval_make(lo, hi), at = ld_interval_of(lo + 0.5 * (hi - lo));
-    const ld_interval offset[BOX_DIMS] = {ld_interval_sub(t, at)};
-    if (!is_affine(p, t, room)) return INFINITY;
-    columns(p, t, room, wide);
-    columns(p, at, room, narrow);
-    double most = 0;
-    for (int i = 0; i < 3; ++i) {
-        ld_interval row = ld_interval_of(0);
-        for (int k = 0; k < 3; ++k) {
-            const jet over = gram(wide, i, k), middle = gram(narrow, i, k);
-            row = ld_interval_add(row, ld_interval_abs(jet_values(&over, &middle, offset)));
-        }
-        if (!(row.hi <= most)) most = row.hi;
-    }
-    return most;
-}
-
-/* Times are halved until d is small or this deep. */
-enum { HALVINGS = 14 };
-#define DEVIATION_SMALL 0x1p-26
-
-static double worst(const piece *p, double lo, double hi, int depth, jet room[])
-{
-    const part *found;
-    split divide;
-    const box3 times = {{-INFINITY, -INFINITY, lo}, {INFINITY, INFINITY, hi}};
-    const enclosed result = choose(p, &times, &found, &divide);
-    double at = lo + 0.5 * (hi - lo);
-    if (result != ENCLOSED && result != ENCLOSED_SPLIT) return INFINITY;
-    if (result == ENCLOSED) {
-        double d = 0, there = 0;
-        for (const part *q = found; q != NULL; q = next_part(p, q, &times)) {
-            d = proof_larger(d, deviation(q, lo, hi, room));
-            there = proof_larger(there, deviation(q, at, at, room));
-        }
-        if (d <= DEVIATION_SMALL || depth >= HALVINGS || !(lo < at && at < hi) || isinf(d))
-            return d;
-        if (there > 0.5 * d) return d; /* halving gains nothing */
-    } else {
-        at = divide.at;
-    }
-    depth += result == ENCLOSED;
-    const double first = worst(p, lo, at, depth, room);
-    const double second = worst(p, at, hi, depth, room);
-    return !(first <= second) ? first : second;
-}
-
-double map_deviation_upper(const statement *s, size_t map, double lo, double hi, jet *room)
-{
-    return worst(&s->stages[map].pieces[0], lo, hi, 0, room);
 }

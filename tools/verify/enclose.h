@@ -45,6 +45,13 @@ typedef struct place {
     memo *memos;        /* of each instance; NULL: nothing is kept */
 } place;
 
+/* The middle of an interval, within it. */
+static inline double middle(double lo, double hi)
+{
+    const double mid = 0.5 * lo + 0.5 * hi;
+    return mid < lo ? lo : mid > hi ? hi : mid;
+}
+
 /* Computes x, y and z over the box, and at a point of it, there without second derivatives. They
  * are everything where a formula may have no value somewhere in the box. */
 enclosed enclose(const place *p, const box3 *where, const double at[3], jet out[3], jet centre[3],
@@ -53,9 +60,17 @@ enclosed enclose(const place *p, const box3 *where, const double at[3], jet out[
 /* Sets u and v of *all to the least box that contains the piece; t is not changed. */
 void piece_box(const place *p, box3 *all);
 
-/* Returns an upper bound d of |J^T J - 1| for the Jacobian J of a map, at all times from lo to hi.
- * If d < 1, the map is affine at each time, and multiplies no length by less than the root of 1 -
- * d. INFINITY: it may not be affine. */
-double map_deviation_upper(const statement *s, size_t map, double lo, double hi, jet *room);
+/* The piece of stage k of a chain. */
+const piece *enclose_piece(const place *p, size_t stage_index);
+
+/* Finds the part of a piece in which a box is; *divide where it is in several. */
+enclosed enclose_choose(const piece *p, const box3 *b, const part **found, split *divide);
+
+/* Returns the next part after `p` that the whole box is in, or NULL: boxes without a size, and ends
+ * that are known to an ulp, may be in several. */
+const part *enclose_next_part(const piece *all, const part *p, const box3 *b);
+
+/* Finds the part of a surface's shape, or why there is none. */
+enclosed enclose_part(const place *p, const box3 *where, const part **found, split *divide);
 
 #endif

@@ -25,6 +25,12 @@ bool input_refuse(input *in, const char *format, ...)
     return false;
 }
 
+static void hash_read(input *in)
+{
+    sha256_add(&in->hash, in->read, in->count);
+    in->count = 0;
+}
+
 unsigned input_byte(input *in)
 {
     const int c = input_is_refused(in) ? EOF : getc(in->file);
@@ -33,7 +39,8 @@ unsigned input_byte(input *in)
         return 0;
     }
     ++in->at;
-    sha256_add(&in->hash, &(uint8_t){(uint8_t)c}, 1);
+    in->read[in->count++] = (uint8_t)c;
+    if (in->count == INPUT_BYTES) hash_read(in);
     if (in->copy != NULL) in->copy(in->copy_context, (uint8_t)c);
     return (unsigned)c;
 }
@@ -87,6 +94,7 @@ char *input_line(input *in, size_t most)
 bool input_end(input *in)
 {
     uint8_t digest[SHA256_BYTES];
+    hash_read(in);
     sha256_end(&in->hash, digest);
     in->copy = NULL;
     for (int k = 0; k < SHA256_BYTES; ++k)

@@ -11,10 +11,14 @@
 
 /* The bytes of a certificate, in order, and why it is refused */
 
+enum { INPUT_BYTES = 4096 };
+
 typedef struct input {
     FILE *file;
     uint64_t at; /* bytes read */
     sha256 hash;
+    uint8_t read[INPUT_BYTES]; /* what is not in the hash so far */
+    size_t count;
     char fault[1400]; /* empty: none. What is read afterwards is 0. */
     uint64_t fault_at;
     void (*copy)(void *context, uint8_t byte); /* takes each byte but the checksum; NULL: none */

@@ -30,9 +30,9 @@ typedef struct normals {
     int count;
 } normals;
 
-static void take_normal(kept *memory, const place *of, const box3 *where, normals *all)
+static void take_normal(memory *known, const place *of, const box3 *where, normals *all)
 {
-    const kept *k = kept_look(memory, of, where);
+    const kept *k = look_jets(known, of, where);
     double u[3], v[3], *p = all->p[all->count], *n = all->n[all->count];
     if (k->result != ENCLOSED) return;
     for (int i = 0; i < 3; ++i) {
@@ -46,7 +46,7 @@ static void take_normal(kept *memory, const place *of, const box3 *where, normal
     all->count += 1;
 }
 
-static bool take_normals(kept *memory, const place *of, double t, normals *all)
+static bool take_normals(memory *known, const place *of, double t, normals *all)
 {
     box3 whole, where = {{0, 0, t}, {0, 0, t}};
     piece_box(of, &whole);
@@ -55,7 +55,7 @@ static bool take_normals(kept *memory, const place *of, double t, normals *all)
         const double share[2] = {(k / ALONG_V + 0.4) / ALONG_U, (k % ALONG_V + 0.4) / ALONG_V};
         for (int j = 0; j < 2; ++j)
             where.lo[j] = where.hi[j] = whole.lo[j] + (whole.hi[j] - whole.lo[j]) * share[j];
-        take_normal(memory, of, &where, all);
+        take_normal(known, of, &where, all);
     }
     for (int k = 0; k < all->count; ++k)
         for (int i = 0; i < 3; ++i) all->mean[i] += all->p[k][i] / all->count;
@@ -148,55 +148,109 @@ static bool find_line(const normals *all, double c[3], double d[3])
     return true;
 }
 
-bool centre_guess(kept *memory, const place *of, double t, centre *found)
+bool centre_guess(memory *known, const place *of, double t, centre *found)
 {
     normals all;
     memset(found, 0, sizeof *found);
-    if (!take_normals(memory, of, t, &all)) return false;
+    if (!take_normals(known, of, t, &all)) return false;
     found->is_line = !find_point(&all, found->c);
     if (found->is_line && !find_line(&all, found->c, found->d)) return false;
     for (int i = 0; i < 3; ++i) found->c[i] = found->c[i] * all.scale + all.mean[i];
+    found->size = all.scale;
     return true;
+}
+
+bool centre_is_shared(const centre *a, const centre *b)
+{
+    const double most = 0.25 * fmax(a->size, b->size);
+    double from[3], across[3], turn[3];
+    for (int i = 0; i < 3; ++i) from[i] = b->c[i] - a->c[i];
+    cross(from, a->d, across);
+    cross(a->d, b->d, turn);
+    const double *off = a->is_line ? across : from;
+    return a->is_line == b->is_line && sqrt(dot(off, off)) < most && sqrt(dot(turn, turn)) < 0.1;
 }
 
 /* --- Distances -------------------------------------------------------------------------------- */
 
-/* Lemma. |x - c| changes by no more than |x - y| from x to y, and |(x - c) x d| by no more than |d|
- * times that. */
-jet centre_distance(const jet x[3], const aim *a)
+void centre_parts(const jet x[3], const centre *about, jet r[3])
 {
-    const double *d = a->about->d;
-    jet w[3], r[3];
+    const double *d = about->d;
+    jet w[3];
     for (int i = 0; i < 3; ++i) {
-        const jet c = jet_constant(VARIABLES, ld_interval_of(a->about->c[i]));
+        const jet c = jet_constant(VARIABLES, ld_interval_of(about->c[i]));
         w[i] = jet_sub(&x[i], &c);
+        r[i] = w[i];
     }
-    const bool is_line = a->about->is_line;
-    for (int i = 0; i < 3 && is_line; ++i) {
+    for (int i = 0; i < 3 && about->is_line; ++i) {
         const int j = (i + 1) % 3, k = (i + 2) % 3;
         const jet first = jet_scale(&w[j], ld_interval_of(d[k]));
         const jet second = jet_scale(&w[k], ld_interval_of(-d[j]));
         r[i] = jet_add(&first, &second);
     }
-    const jet *const parts[3] = {is_line ? &r[0] : &w[0], is_line ? &r[1] : &w[1],
-                                 is_line ? &r[2] : &w[2]};
-    const jet distance = jet_length(parts, 3);
+}
+
+/* Lemma. |x - c| changes by no more than |x - y| from x to y, and |(x - c) x d| by no more than |d|
+ * times that. */
+jet centre_distance(const jet r[3], const aim *a)
+{
+    const jet distance = jet_length((const jet *const[3]){&r[0], &r[1], &r[2]}, 3);
     return a->n[0] > 0 ? distance : jet_neg(&distance);
 }
 
-bool centre_aims(kept *memory, const centre *about, const place of[2], const box3 where[2],
+/* Lemma. |x - c|^2 is x^T x, and |x x d|^2 is x^T (d^T d - d d^T) x, of x - c. */
+static void take_form(const centre *about, ld_interval e[3][3])
+{
+    const double *d = about->d;
+    ld_interval square = ld_interval_of(0);
+    for (int i = 0; i < 3; ++i)
+        square = ld_interval_add(square, ld_interval_sqr(ld_interval_of(d[i])));
+    for (int i = 0; i < 3; ++i)
+        for (int j = 0; j < 3; ++j) {
+            const ld_interval both = ld_interval_mul(ld_interval_of(d[i]), ld_interval_of(d[j]));
+            const ld_interval same = ld_interval_of(i == j);
+            e[i][j] = about->is_line ? ld_interval_sub(ld_interval_mul(same, square), both) : same;
+        }
+}
+
+/* Holds a surface that does not move by itself at the middle of the times, and bounds how much its
+ * motion changes the squares of distances. Else all times are bounded at once. */
+static void hold(memory *known, const place *of, const box3 *where, aim *a)
+{
+    const piece *shape = enclose_piece(of, 0);
+    ld_interval e[3][3];
+    double size[3];
+    place bare = *of;
+    bare.maps = 0;
+    a->at = NAN, a->slip = 0;
+    if (shape->count != 1 || shape->parts[0].is_moving) return;
+    const kept *k = look_jets(known, &bare, where);
+    if (k->result != ENCLOSED) return;
+    for (int i = 0; i < 3; ++i) size[i] = ld_interval_mag(k->box[i].v);
+    take_form(a->about, e);
+    const double slip = motion_slip_upper(of, where->lo[T], where->hi[T], a->about->c, e, size);
+    if (!(slip < INFINITY)) return;
+    a->slip = slip;
+    a->at = middle(where->lo[T], where->hi[T]);
+}
+
+bool centre_aims(memory *known, const centre *about, const place of[2], const box3 where[2],
                  aim a[2], double *change_upper)
 {
     double distance[2];
     for (int side = 0; side < 2; ++side) {
         const aim out = {.n = {1, 0, 0}, .about = about};
-        const kept *k = kept_look(memory, &of[side], &where[side]);
+        const kept *k = look_jets(known, &of[side], &where[side]);
         if (k->result != ENCLOSED) return false;
-        distance[side] = ld_interval_mid(centre_distance(k->centre, &out).v);
+        jet r[3];
+        centre_parts(k->centre, about, r);
+        distance[side] = ld_interval_mid(centre_distance(r, &out).v);
     }
     const double sign = distance[1] > distance[0] ? 1 : -1;
-    for (int side = 0; side < 2; ++side)
+    for (int side = 0; side < 2; ++side) {
         a[side] = (aim){.n = {side == 0 ? sign : -sign, 0, 0}, .about = about};
+        hold(known, &of[side], &where[side], &a[side]);
+    }
     ld_interval square = ld_interval_of(0);
     for (int i = 0; i < 3; ++i)
         square = ld_interval_add(square, ld_interval_sqr(ld_interval_of(about->d[i])));

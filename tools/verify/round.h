@@ -13,18 +13,26 @@
 typedef struct centre {
     bool is_line;
     double c[3], d[3]; /* the line through c along d, or the point c */
+    double size;       /* of the surface, about */
 } centre;
 
-/* Guesses the centre of a piece at time t: its normals all meet there. False: no centre was found.
- * A bad guess costs time and proves nothing false. */
-bool centre_guess(kept *memory, const place *of, double t, centre *found);
+/* Whether two surfaces are round about nearly the same. */
+bool centre_is_shared(const centre *a, const centre *b);
+
+/* Guesses the centre of a piece at time t from normals of it, which all meet the centre. False: it
+ * has none, as far as is seen. What is computed from a bad guess costs time only. */
+bool centre_guess(memory *known, const place *of, double t, centre *found);
 
 /* Makes the aims of both sides from that centre to points beyond, and an upper bound of how much
  * the distance from it changes for a unit of length. `where` is the box of either side. */
-bool centre_aims(kept *memory, const centre *about, const place of[2], const box3 where[2],
+bool centre_aims(memory *known, const centre *about, const place of[2], const box3 where[2],
                  aim a[2], double *change_upper);
 
-/* The distance from a centre, times |d| if that is a line, with the sign of the aim. */
-jet centre_distance(const jet x[3], const aim *a);
+/* Computes x - c, or (x - c) x d where the centre is a line. */
+void centre_parts(const jet x[3], const centre *about, jet r[3]);
+
+/* Computes the distance from a centre from its parts, times |d| if that is a line, with the sign of
+ * the aim. */
+jet centre_distance(const jet r[3], const aim *a);
 
 #endif

@@ -5,84 +5,43 @@
 #include "tools/verify/shadow.h"
 
 #include <math.h>
-#include <stdint.h>
-#include <string.h>
 
 #include "core/common/array.h"
 #include "tools/verify/round.h"
 
-/* --- Enclosures ------------------------------------------------------------------------------- */
+/* --- Distances from a centre ------------------------------------------------------------------ */
 
-static size_t mixed(const place *of, const box3 *where)
-{
-    uint64_t bits[2 * VARIABLES], sum = (uintptr_t)of->chain + 31 * of->maps + 977 * of->piece;
-    memcpy(bits, where, sizeof bits);
-    for (int j = 0; j < 2 * VARIABLES; ++j)
-        sum = (sum ^ bits[j] ^ bits[j] >> 29) * UINT64_C(0x9e3779b97f4a7c15);
-    return sum >> 32 & (KEPT - 1);
-}
-
-const kept *kept_look(kept *memory, const place *of, const box3 *where)
-{
-    kept *k = &memory[mixed(of, where)];
-    if (k->chain == of->chain && k->piece == of->piece && k->maps == of->maps &&
-        memcmp(&k->where, where, sizeof *where) == 0)
-        return k;
-    k->chain = of->chain;
-    k->piece = of->piece;
-    k->maps = of->maps;
-    k->where = *where;
-    for (int j = 0; j < VARIABLES; ++j) k->c[j] = middle(where->lo[j], where->hi[j]);
-    k->result = enclose(of, where, k->c, k->box, k->centre, &k->divide);
-    return k;
-}
-
-/* --- Shadows ---------------------------------------------------------------------------------- */
-
-static jet along(const jet x[3], const double n[3])
-{
-    jet sum = jet_scale(&x[0], ld_interval_of(n[0]));
-    for (int i = 1; i < 3; ++i) {
-        const jet term = jet_scale(&x[i], ld_interval_of(n[i]));
-        sum = jet_add(&sum, &term);
-    }
-    return sum;
-}
-
-static void subtract_line(jet *x, const aim *a, ld_interval t)
-{
-    const ld_interval slope = ld_interval_of(a->slope);
-    const ld_interval since = ld_interval_sub(t, ld_interval_of(a->mid));
-    x->v = ld_interval_sub(x->v, ld_interval_mul(slope, since));
-    x->d[T] = ld_interval_sub(x->d[T], slope);
-    x->on |= 1 << T;
-}
-
-/* Estimates the dependence on each variable by derivatives. Their sum is at most the width of the
- * values; where derivatives have no bounds, that width is divided in proportion to the variables'
- * widths. */
-static void find_sizes(const jet *over, const jet *at, const double half[VARIABLES], shadow *s)
+/* How much the distance depends on each variable, by its derivatives, about. No more is shared out
+ * than what its values vary by; where derivatives have no bounds, it is shared by those of the
+ * parts. */
+static void find_sizes(const jet *over, const jet *at, const jet parts[3],
+                       const double half[VARIABLES], double size[VARIABLES])
 {
     const double most = over->v.hi - over->v.lo;
-    double sum = 0, width = 0;
+    double sum = 0, ways[VARIABLES], way = PROOF_TINY;
     for (int j = 0; j < VARIABLES; ++j) {
-        s->size[j] = fabs(ld_interval_mid(at->d[j])) * half[j];
+        size[j] = fabs(ld_interval_mid(at->d[j])) * half[j];
         for (int k = 0; k < VARIABLES; ++k) {
             const ld_interval bend = j <= k ? over->h[j][k] : over->h[k][j];
             if (half[j] > 0 && half[k] > 0)
-                s->size[j] += 0.5 * ld_interval_mag(bend) * half[j] * half[k];
+                size[j] += 0.5 * ld_interval_mag(bend) * half[j] * half[k];
         }
-        sum += s->size[j];
-        width += half[j];
+        ways[j] = 0;
+        for (int i = 0; i < 3; ++i) ways[j] += ld_interval_mag(parts[i].d[j]) * half[j];
+        sum += size[j];
+        way += ways[j];
     }
     for (int j = 0; j < VARIABLES && !(sum <= most); ++j)
-        s->size[j] = most * (sum < INFINITY ? s->size[j] / sum : half[j] / width);
+        size[j] = most * (sum < INFINITY ? size[j] / sum : ways[j] / way);
 }
 
-static shadow cast(const kept *k, const aim *a)
+/* Bounds the distance from a centre. *size: NULL, or how much it depends on each variable. */
+static ld_interval distances(const kept *k, const aim *a, double *at_centre, double *size)
 {
-    jet over = a->about != NULL ? centre_distance(k->box, a) : along(k->box, a->n);
-    jet at = a->about != NULL ? centre_distance(k->centre, a) : along(k->centre, a->n);
+    jet wide[3], narrow[3];
+    centre_parts(k->box, a->about, wide);
+    centre_parts(k->centre, a->about, narrow);
+    const jet over = centre_distance(wide, a), at = centre_distance(narrow, a);
     ld_interval offset[BOX_DIMS];
     double half[VARIABLES];
     for (int j = 0; j < VARIABLES; ++j) {
@@ -90,15 +49,61 @@ static shadow cast(const kept *k, const aim *a)
         offset[j] = ld_interval_sub(all, ld_interval_of(k->c[j]));
         half[j] = 0.5 * (all.hi - all.lo);
     }
-    subtract_line(&over, a, ld_interval_make(k->where.lo[T], k->where.hi[T]));
-    subtract_line(&at, a, ld_interval_of(k->c[T]));
-    const ld_interval all = jet_values(&over, &at, offset);
-    shadow s = {all.lo, all.hi, ld_interval_mid(at.v), {0, 0, 0}};
-    find_sizes(&over, &at, half, &s);
-    return s;
+    *at_centre = ld_interval_mid(at.v);
+    if (size != NULL) find_sizes(&over, &at, wide, half, size);
+    return jet_values(&over, &at, offset);
+}
+
+/* --- Control points --------------------------------------------------------------------------- */
+
+/* Half of what the points differ by along u and v, and by how much time bends their ways. */
+static void net_sizes(const reach *r, double size[VARIABLES])
+{
+    const int count[2] = {r->n[0], r->n[1]}, step[2] = {r->n[1] * r->n[2], r->n[2]};
+    const int all = r->n[0] * r->n[1] * r->n[2];
+    for (int j = 0; j < 2; ++j) {
+        size[j] = r->share[j];
+        for (int i = 0; i < all; ++i) {
+            if (i / step[j] % count[j] != 0) continue;
+            double lo = r->g[i], hi = lo;
+            for (int k = 1; k < count[j]; ++k) {
+                lo = proof_smaller(lo, r->g[i + k * step[j]]);
+                hi = proof_larger(hi, r->g[i + k * step[j]]);
+            }
+            size[j] = proof_larger(size[j], r->share[j] + 0.5 * (hi - lo));
+        }
+    }
+    double bend = 0;
+    for (int i = 0; i < all; ++i)
+        if (i % r->n[2] > 0 && i % r->n[2] < r->n[2] - 1)
+            bend = proof_larger(bend, fabs(r->g[i - 1] - 2 * r->g[i] + r->g[i + 1]));
+    size[T] = r->share[T] + bend;
 }
 
 /* --- Areas ------------------------------------------------------------------------------------ */
+
+void areas_begin(areas *all, memory *known)
+{
+    all->memory = known;
+    all->count = 0;
+    all->cut = NAN;
+}
+
+void areas_sizes(const areas *all, size_t index, const aim *a, double size[VARIABLES])
+{
+    const area *s = &all->at[index];
+    form x;
+    split unused;
+    reach r;
+    double ends;
+    for (int j = 0; j < VARIABLES; ++j) size[j] = INFINITY; /* of what has no bounds */
+    if (a->about != NULL) {
+        distances(look_jets(all->memory, &s->of, &s->where), a, &ends, size);
+    } else if (look_net(all->memory, &s->of, &s->where, &x, &unused) == ENCLOSED && x.net != NULL) {
+        net_along(&x, a->n, &r);
+        net_sizes(&r, size);
+    }
+}
 
 const char *shadow_why_unknown(enclosed result)
 {
@@ -115,18 +120,60 @@ static const char *add_halves(areas *all, const place *of, const box3 *where, co
     return why != NULL ? why : areas_add(all, of, &half[1], a);
 }
 
+/* What distances at one time, with the sign of the aim, are at all times. */
+static ld_interval slipped(ld_interval x, const aim *a)
+{
+    const ld_interval size = ld_interval_abs(x);
+    if (a->slip == 0) return x;
+    const ld_interval square =
+        ld_interval_add(ld_interval_sqr(size), ld_interval_plus_minus(a->slip));
+    const ld_interval root =
+        ld_interval_sqrt(ld_interval_make(proof_larger(square.lo, 0), square.hi));
+    return a->n[0] > 0 ? root : ld_interval_neg(root);
+}
+
+/* Bounds an area, whose bounds are infinite. */
+static enclosed cast(areas *all, area *s, const aim *a, split *by)
+{
+    form x = {NULL, NULL};
+    enclosed result;
+    if (a->about != NULL) {
+        const kept *k = look_jets(all->memory, &s->of, &s->where);
+        result = k->result, *by = k->divide;
+        if (result != ENCLOSED) return result;
+        const ld_interval all_of_it = slipped(distances(k, a, &s->ends[0], NULL), a);
+        s->ends[1] = s->ends[0], s->least = all_of_it.lo;
+        for (int i = 0; i < NET_TIMES; ++i) s->upper[i] = all_of_it.hi;
+        return result;
+    }
+    result = look_net(all->memory, &s->of, &s->where, &x, by);
+    if (result == ENCLOSED && x.net != NULL) {
+        reach r;
+        net_along(&x, a->n, &r);
+        for (int k = 0; k < NET_TIMES; ++k) s->upper[k] = r.upper[k];
+        s->ends[0] = r.ends[0], s->ends[1] = r.ends[1], s->least = r.least;
+    }
+    return result;
+}
+
 const char *areas_add(areas *all, const place *of, const box3 *where, const aim *a)
 {
-    const kept *k = kept_look(all->memory, of, where);
-    const split by = k->divide;
-    if (k->result == ENCLOSED_EMPTY) return NULL;
-    if (k->result == ENCLOSED_SPLIT) return add_halves(all, of, where, a, &by);
-    if (k->result != ENCLOSED) return shadow_why_unknown(k->result);
+    area made = {.of = *of, .where = *where, .ends = {-INFINITY, -INFINITY}, .least = -INFINITY};
+    for (int k = 0; k < NET_TIMES; ++k) made.upper[k] = INFINITY;
+    split by = {0, 0};
+    const enclosed result = cast(all, &made, a, &by);
+    if (result == ENCLOSED_EMPTY) return NULL;
+    if (result == ENCLOSED_SPLIT && by.along == T && a->about == NULL) {
+        all->cut = by.at;
+        return NULL;
+    }
+    if (result == ENCLOSED_SPLIT) return add_halves(all, of, where, a, &by);
+    if (result != ENCLOSED) return shadow_why_unknown(result);
     area *grown = array_reserve(all->at, all->count, &all->room, sizeof *grown);
     if (grown == NULL) return "memory ran out";
     all->at = grown;
     all->cast += 1;
-    grown[all->count++] = (area){*of, *where, cast(k, a)};
+    grown[all->count++] = made;
     return NULL;
 }
 
@@ -134,28 +181,32 @@ const char *areas_divide(areas *all, size_t index, const aim *a, bool *divided)
 {
     const area was = all->at[index];
     split by = {-1, 0};
-    double most = 0, widest = 0;
-    for (int j = 0; j < VARIABLES; ++j) {
+    double most = 0, widest = 0, size[VARIABLES];
+    areas_sizes(all, index, a, size);
+    for (int j = 0; j < (a->about != NULL ? VARIABLES : T); ++j) {
         const double lo = was.where.lo[j], hi = was.where.hi[j], mid = middle(lo, hi);
         if (!(lo < mid && mid < hi)) continue;
-        const double width = hi - lo, size = was.s.size[j];
-        if (by.along >= 0 && !(size > most) && !(size == most && width > widest)) continue;
+        const double width = hi - lo;
+        if (by.along >= 0 && !(size[j] > most) && !(size[j] == most && width > widest)) continue;
         by = (split){j, mid};
-        most = size, widest = width;
+        most = size[j], widest = width;
     }
-    *divided = by.along >= 0;
+    *divided = by.along >= 0 && (a->about != NULL || !(size[T] > 2 * most));
     if (!*divided) return NULL;
     all->at[index] = all->at[--all->count];
     return add_halves(all, &was.of, &was.where, a, &by);
 }
 
-reach areas_reach(const areas *all)
+limits areas_limits(const areas *all)
 {
-    reach r = {-INFINITY, -INFINITY, 0};
-    for (size_t k = 0; k < all->count; ++k) {
-        const shadow *s = &all->at[k].s;
-        if (!(s->hi <= r.bound)) r.bound = s->hi, r.worst = k;
-        if (s->value > r.value) r.value = s->value;
+    limits r = {.ends = {-INFINITY, -INFINITY}, .least = INFINITY};
+    for (int k = 0; k < NET_TIMES; ++k) r.upper[k] = -INFINITY;
+    for (size_t i = 0; i < all->count; ++i) {
+        const area *s = &all->at[i];
+        for (int k = 0; k < NET_TIMES; ++k)
+            if (!(s->upper[k] <= r.upper[k])) r.upper[k] = s->upper[k], r.worst[k] = i;
+        r.least = proof_smaller(s->least, r.least);
+        for (int end = 0; end < 2; ++end) r.ends[end] = proof_larger(s->ends[end], r.ends[end]);
     }
     return r;
 }

@@ -3,88 +3,63 @@
 #ifndef TOOLS_VERIFY_SHADOW_H
 #define TOOLS_VERIFY_SHADOW_H
 
-#include "tools/verify/enclose.h"
+#include "tools/verify/look.h"
 
 /* How far one side reaches along a direction
  * ==========================================
- * Boxes of a surface's pieces, each enclosed and projected on the direction; the box that reaches
- * farthest is divided, until what all of them reach is known well enough. */
-
-/* --- Enclosures ------------------------------------------------------------------------------- */
-
-enum { KEPT = 1024 }; /* a power of 2 */
-
-/* An enclosure that was computed before. */
-typedef struct kept {
-    const chain *chain; /* NULL: none */
-    size_t piece, maps;
-    box3 where;
-    enclosed result;
-    split divide;
-    double c[3];
-    jet box[3], centre[3]; /* about the point c */
-} kept;
-
-/* Returns the enclosure of a box of a piece, computed or found among the last ones. Another call
- * may overwrite it. `memory`: KEPT entries. */
-const kept *kept_look(kept *memory, const place *of, const box3 *where);
-
-/* Returns the middle of an interval, within it. */
-static inline double middle(double lo, double hi)
-{
-    const double mid = 0.5 * lo + 0.5 * hi;
-    return mid < lo ? lo : mid > hi ? hi : mid;
-}
-
-/* --- Shadows ---------------------------------------------------------------------------------- */
+ * Boxes of a surface's pieces, each projected on the direction; the box that reaches farthest is
+ * divided, until what all of them reach is known well enough. */
 
 typedef struct centre centre; /* round.h */
 
-/* The direction in which a side's reach is measured: n for A, -n for B. A line in time that both
- * sides have in common is subtracted, and cancels. With a centre: away from it if n[0] > 0, else
+/* Each side's own direction of an axis: n of A, -n of B. Or away from a centre, if n[0] > 0, or
  * towards it. */
 typedef struct aim {
-    double n[3], slope, mid;
+    double n[3];
     const centre *about; /* NULL: an axis */
+    double at;   /* of a centre: the time at which distances are bounded; NAN: at all times */
+    double slip; /* how much their squares change from that time, at most */
 } aim;
 
-/* n.x - slope (t - mid), or the distance from the centre, over a box of one side. */
-typedef struct shadow {
-    double lo, hi;          /* bounds */
-    double value;           /* at the centre, about */
-    double size[VARIABLES]; /* how much it depends on each variable, about */
-} shadow;
-
-/* A box of a piece of one side, which may be divided while the other side is not. */
+/* A box of a piece of one side, which may be divided while the other side is not; along u and v
+ * alone where a direction is bounded. */
 typedef struct area {
     place of;
     box3 where;
-    shadow s;
+    double upper[NET_TIMES]; /* of n.x or the distance: Bernstein coefficients over time */
+    double ends[2], least;   /* of points at the first and the last time, and of all, about */
 } area;
 
 typedef struct areas {
     area *at;
     size_t count, room;
     unsigned long cast; /* boxes projected so far: what a proof costs, about */
-    kept *memory;
-} areas; /* freed by free(at) */
+    memory *memory;
+    double cut; /* a time at which a formula begins or ends; NAN: none */
+} areas;        /* freed by free(at) */
 
-/* Adds an area; nothing is added where the surface does not exist. Returns NULL, or why the area
- * has no enclosure. */
+void areas_begin(areas *all, memory *known);
+
+/* NULL, or why not. Nothing is added where the surface does not exist, or where the cell has to be
+ * divided in time. */
 const char *areas_add(areas *all, const place *of, const box3 *where, const aim *a);
 
-/* Divides an area along what it depends on most. Sets *divided to false if it cannot be divided. */
+/* Divides an area along what it depends on most. Sets *divided to false if it cannot be divided,
+ * or if time is to be divided. */
 const char *areas_divide(areas *all, size_t index, const aim *a, bool *divided);
 
+/* Computes how much an area depends on each variable, about; on t, where it is not linear in it. */
+void areas_sizes(const areas *all, size_t index, const aim *a, double size[VARIABLES]);
+
 /* How far a side reaches in its own direction. */
-typedef struct reach {
-    double bound, value; /* of all boxes, and at their centres, about */
-    size_t worst;        /* the area that has the bound */
-} reach;
+typedef struct limits {
+    double upper[NET_TIMES], ends[2], least; /* of all areas */
+    size_t worst[NET_TIMES];                 /* the area that has the bound */
+} limits;
 
-reach areas_reach(const areas *all);
+limits areas_limits(const areas *all);
 
-/* Returns why a box of a surface has no enclosure; NULL: it has one. */
+/* Why a box of a surface is not known; NULL: it is. */
 const char *shadow_why_unknown(enclosed result);
 
 #endif

@@ -2,6 +2,7 @@
  * SPDX-License-Identifier: Apache-2.0 */
 #include <config.h>
 
+#include "tools/verify/motion.h"
 #include "tools/verify/statement_internal.h"
 #include "tools/verify/words.h"
 
@@ -186,7 +187,9 @@ bool statement_read(statement *s, input *in)
     }
     if (s->ignored_count > 0)
         qsort(s->ignored, s->ignored_count, sizeof *s->ignored, compare_ignored);
-    return check_claim(s, in, keys);
+    if (!check_claim(s, in, keys)) return false;
+    motion_prepare(s);
+    return true;
 }
 
 void statement_free(statement *s)
@@ -194,7 +197,10 @@ void statement_free(statement *s)
     for (size_t k = 0; k < s->stage_count; ++k) {
         stage *g = &s->stages[k];
         for (size_t i = 0; i < g->count; ++i) {
-            for (size_t j = 0; j < g->pieces[i].count; ++j) formula_free(g->pieces[i].parts[j].f);
+            for (size_t j = 0; j < g->pieces[i].count; ++j) {
+                formula_free(g->pieces[i].parts[j].f);
+                free(g->pieces[i].parts[j].net);
+            }
             free(g->pieces[i].parts);
         }
         free(g->pieces);

@@ -16,6 +16,8 @@
 typedef struct part {
     double lo[3], hi[3], inner_lo[3], inner_hi[3];
     formula *f;
+    struct net *net;           /* of a shape that is a polynomial; NULL: it is none */
+    bool is_moving, is_affine; /* a shape that depends on t; a map that is affine in x, y and z */
 } part;
 
 /* A piece of an instance. No parts: the certificate has no formula for it. */

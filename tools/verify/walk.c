@@ -182,7 +182,7 @@ static void note_assumed(walk *w, const chain *c)
 /* Memory of all pairs. */
 typedef struct work {
     jet *steps;
-    kept *kept;
+    memory *known;
     memo *memos;
 } work;
 
@@ -193,7 +193,7 @@ static bool take_pair(walk *w, size_t a, size_t b, const work *room)
     cell c = {.t = {s->from, s->to}};
     p.is_said = statement_is_said(s, p.chain[0]) && statement_is_said(s, p.chain[1]);
     p.prover.tests_most = w->effort;
-    p.prover.kept = room->kept;
+    p.prover.known = room->known;
     w->pairs += 1;
     if (input_count(w->in, UINT32_MAX) != a || input_count(w->in, UINT32_MAX) != b)
         return input_refuse(w->in, "the tree of surfaces %zu and %zu is not here", a, b);
@@ -246,9 +246,9 @@ bool walk_trees(walk *w)
     const statement *s = w->says;
     size_t *first = malloc((s->body_count + 1) * sizeof *first);
     const work room = {malloc((2 * (size_t)s->steps + 1) * sizeof *room.steps),
-                       calloc(KEPT, sizeof *room.kept),
+                       calloc(1, sizeof *room.known),
                        calloc(s->stage_count + 1, sizeof *room.memos)};
-    bool good = first != NULL && room.steps != NULL && room.kept != NULL && room.memos != NULL;
+    bool good = first != NULL && room.steps != NULL && room.known != NULL && room.memos != NULL;
     if (!good) input_refuse(w->in, "memory ran out");
     good = good && find_first(w, first);
     for (size_t a = 0; a < s->body_count && good; ++a)
@@ -256,7 +256,7 @@ bool walk_trees(walk *w)
             if (!statement_ignores(s, a, b)) good = take_bodies(w, a, b, first, &room);
     free(first);
     free(room.steps);
-    free(room.kept);
+    free(room.known);
     for (size_t k = 0; k < s->stage_count && room.memos != NULL; ++k) free(room.memos[k].value);
     free(room.memos);
     return good && input_end(w->in);

@@ -12,9 +12,10 @@
 
 void *words_grown(input *in, void *list, size_t count, size_t *room, size_t size)
 {
+    const size_t before = *room;
     void *made = array_reserve(list, count, room, size);
     if (made == NULL) input_refuse(in, "memory ran out");
-    if (made != NULL && made != list)
+    if (made != NULL && *room > before)
         memset((char *)made + count * size, 0, (*room - count) * size);
     return made != NULL ? made : list;
 }

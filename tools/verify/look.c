@@ -1,0 +1,96 @@
+/* SPDX-FileCopyrightText: The Impinge authors
+ * SPDX-License-Identifier: Apache-2.0 */
+#include <config.h>
+
+#include "tools/verify/look.h"
+
+#include <stdint.h>
+#include <string.h>
+
+static size_t mixed(uintptr_t what, const double numbers[], size_t count)
+{
+    uint64_t sum = what;
+    for (size_t k = 0; k < count; ++k) {
+        uint64_t bits;
+        memcpy(&bits, &numbers[k], sizeof bits);
+        sum = (sum ^ bits ^ bits >> 29) * UINT64_C(0x9e3779b97f4a7c15);
+    }
+    return sum >> 32;
+}
+
+static size_t mixed_box(uintptr_t what, const box3 *b)
+{
+    const double numbers[6] = {b->lo[0], b->lo[1], b->lo[2], b->hi[0], b->hi[1], b->hi[2]};
+    return mixed(what, numbers, 6);
+}
+
+static bool is_same(const box3 *a, const box3 *b) { return memcmp(a, b, sizeof *a) == 0; }
+
+const kept *look_jets(memory *all, const place *of, const box3 *where)
+{
+    const size_t at = mixed_box((uintptr_t)of->chain + 31 * of->maps + 977 * of->piece, where);
+    kept *k = &all->jets[at & (KEPT - 1)];
+    if (k->chain == of->chain && k->piece == of->piece && k->maps == of->maps &&
+        is_same(&k->where, where))
+        return k;
+    k->chain = of->chain;
+    k->piece = of->piece;
+    k->maps = of->maps;
+    k->where = *where;
+    for (int j = 0; j < VARIABLES; ++j) k->c[j] = middle(where->lo[j], where->hi[j]);
+    k->result = enclose(of, where, k->c, k->box, k->centre, &k->divide);
+    return k;
+}
+
+static const kept_motion *look_motion(memory *all, const place *of, double lo, double hi)
+{
+    const double times[2] = {lo, hi};
+    const size_t at = mixed((uintptr_t)of->chain + 31 * of->maps, times, 2);
+    kept_motion *k = &all->motions[at & (KEPT_MOTIONS - 1)];
+    if (k->chain == of->chain && k->maps == of->maps && k->lo == lo && k->hi == hi) return k;
+    *k = (kept_motion){.chain = of->chain, .maps = of->maps, .lo = lo, .hi = hi};
+    k->result = motion_bound(of, lo, hi, &k->motion, &k->is_affine, &k->divide);
+    return k;
+}
+
+static void take_jets(const place *of, const box3 *where, kept_net *k)
+{
+    jet wide[3], centre[3];
+    double at[3];
+    for (int j = 0; j < VARIABLES; ++j) at[j] = middle(where->lo[j], where->hi[j]);
+    k->result = enclose(of, where, at, wide, centre, &k->divide);
+    if (k->result == ENCLOSED && !net_of_jets(wide, centre, where->lo, where->hi, &k->net))
+        k->net.n[0] = 0;
+}
+
+enclosed look_net(memory *all, const place *of, const box3 *where, form *found, split *divide)
+{
+    const part *shape;
+    place bare = *of;
+    const enclosed result = enclose_part(of, where, &shape, divide);
+    if (result != ENCLOSED) return result;
+    *found = (form){NULL, NULL};
+    if (of->maps > 0) {
+        const kept_motion *m = look_motion(all, of, where->lo[T], where->hi[T]);
+        *divide = m->divide;
+        if (m->result != ENCLOSED) return m->result;
+        if (m->is_affine) found->motion = &m->motion, bare.maps = 0;
+    }
+    const bool alone = enclose_next_part(enclose_piece(of, 0), shape, where) == NULL;
+    const bool exact = shape->net != NULL && alone && bare.maps == 0;
+    box3 key = *where;
+    if (!shape->is_moving && alone && bare.maps == 0) key.lo[T] = key.hi[T] = 0;
+    const chain *moved = bare.maps > 0 ? of->chain : NULL;
+    const size_t at = mixed_box((uintptr_t)shape + (uintptr_t)moved + 31 * bare.maps, &key);
+    kept_net *k = &all->nets[at & (KEPT_NETS - 1)];
+    if (k->part != shape || k->chain != moved || k->maps != bare.maps ||
+        !is_same(&k->where, &key)) {
+        k->part = shape, k->chain = moved, k->maps = bare.maps, k->where = key;
+        k->result = ENCLOSED;
+        if (!exact || !net_restrict(shape->net, where->lo, where->hi, &k->net))
+            take_jets(&bare, where, k);
+    }
+    *divide = k->divide;
+    if (k->result == ENCLOSED && k->net.n[0] > 0) found->net = &k->net;
+    return k->result;
+}

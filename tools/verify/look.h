@@ -1,0 +1,57 @@
+/* SPDX-FileCopyrightText: The Impinge authors
+ * SPDX-License-Identifier: Apache-2.0 */
+#ifndef TOOLS_VERIFY_LOOK_H
+#define TOOLS_VERIFY_LOOK_H
+
+#include "tools/verify/motion.h"
+
+/* Enclosures, and those that were computed before */
+
+enum { KEPT = 1024, KEPT_NETS = 1024, KEPT_MOTIONS = 256 }; /* powers of 2 */
+
+typedef struct kept {
+    const chain *chain; /* NULL: none */
+    size_t piece, maps;
+    box3 where;
+    enclosed result;
+    split divide;
+    double c[3];
+    jet box[3], centre[3]; /* about the point c */
+} kept;
+
+/* A net of a part, before the maps that are left to do. */
+typedef struct kept_net {
+    const part *part;   /* NULL: none */
+    const chain *chain; /* NULL: before all maps */
+    size_t maps;
+    box3 where; /* of t [0, 0], where the part does not move by itself */
+    enclosed result;
+    split divide;
+    net net;
+} kept_net;
+
+typedef struct kept_motion {
+    const chain *chain; /* NULL: none */
+    size_t maps;
+    double lo, hi;
+    enclosed result;
+    split divide;
+    bool is_affine;
+    motion motion;
+} kept_motion;
+
+typedef struct memory {
+    kept jets[KEPT];
+    kept_net nets[KEPT_NETS];
+    kept_motion motions[KEPT_MOTIONS];
+} memory;
+
+/* What is found may be overwritten by another call. */
+
+/* Encloses a box of a piece in jets. */
+const kept *look_jets(memory *all, const place *of, const box3 *where);
+
+/* Encloses a box of a piece in control points. ENCLOSED, with a net NULL: it has no bounds. */
+enclosed look_net(memory *all, const place *of, const box3 *where, form *found, split *divide);
+
+#endif

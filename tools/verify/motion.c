@@ -1,0 +1,256 @@
+/* SPDX-FileCopyrightText: The Impinge authors
+ * SPDX-License-Identifier: Apache-2.0 */
+#include <config.h>
+
+#include "tools/verify/motion.h"
+
+#include <math.h>
+#include <stdlib.h>
+
+/* --- Affine maps ------------------------------------------------------------------------------ */
+
+/* Lemma. A second derivative by two of x, y and z that is exactly 0 for all x, y and z (the whole
+ * line), for all of which the map is defined, makes the map affine in them. */
+static bool is_affine(const part *p, jet room[])
+{
+    jet variables[4] = {[3] = jet_constant(3, ld_interval_make(p->lo[T], p->hi[T]))}, out[3];
+    bool affine = true;
+    for (int k = 0; k < 3; ++k) variables[k] = jet_variable(3, k, ld_interval_entire());
+    formula_jets_in(p->f, variables, room, out);
+    for (int i = 0; i < 3; ++i)
+        for (int k = 0; k < 3; ++k)
+            for (int l = k; l < 3; ++l) affine = affine && ld_interval_is(out[i].h[k][l], 0);
+    return affine && !out[0].is_undefined && !out[1].is_undefined && !out[2].is_undefined;
+}
+
+/* Notes what a shape is. A part without an end in time is looked at while the claim lasts. */
+static void prepare_shape(const statement *s, part *p)
+{
+    const double lo[3] = {p->lo[U], p->lo[V], p->lo[T] > s->from ? p->lo[T] : s->from};
+    const double hi[3] = {p->hi[U], p->hi[V], p->hi[T] < s->to ? p->hi[T] : s->to};
+    p->is_moving = formula_depends(p->f, T);
+    if (lo[T] <= hi[T]) p->net = net_of_formula(p->f, lo, hi);
+}
+
+void motion_prepare(statement *s)
+{
+    jet *room = malloc(((size_t)s->steps + 1) * sizeof *room);
+    for (size_t k = 0; k < s->stage_count; ++k)
+        for (size_t i = 0; i < s->stages[k].count; ++i)
+            for (size_t j = 0; j < s->stages[k].pieces[i].count; ++j) {
+                part *p = &s->stages[k].pieces[i].parts[j];
+                if (!s->stages[k].is_map) prepare_shape(s, p);
+                p->is_affine = s->stages[k].is_map && room != NULL && is_affine(p, room);
+            }
+    free(room);
+}
+
+/* M and d as jets of t over some times, and at their middle. */
+typedef struct affine {
+    jet wide[3][4], centre[3][4];
+    ld_interval offset[BOX_DIMS];
+} affine;
+
+/* Computes where an affine map takes 0, and where it takes the unit vectors, minus that. Steps that
+ * depend on time alone are computed once. */
+static void take_affine(const part *p, double lo, double hi, jet room[], affine *a)
+{
+    jet wide[4], centre[4], out[3], out_centre[3];
+    const ld_interval t = ld_interval_make(lo, hi), at = ld_interval_of(middle(lo, hi));
+    *a = (affine){.offset = {ld_interval_sub(t, at)}};
+    wide[3] = jet_variable(1, 0, t), centre[3] = jet_variable(1, 0, at);
+    centre[3].bends = 0;
+    for (int c = 3; c >= 0; --c) {
+        for (int i = 0; i < 3; ++i) wide[i] = centre[i] = jet_constant(1, ld_interval_of(i == c));
+        const formula_boxes given = {wide, centre, a->offset, c == 3, 7};
+        formula_jets_about(p->f, &given, room, out, out_centre);
+        for (int i = 0; i < 3; ++i) {
+            a->wide[i][c] = c < 3 ? jet_sub(&out[i], &a->wide[i][3]) : out[i];
+            a->centre[i][c] = c < 3 ? jet_sub(&out_centre[i], &a->centre[i][3]) : out_centre[i];
+        }
+    }
+}
+
+static jet sum_of_products(const jet l[4], const jet r[3][4], int c)
+{
+    jet sum = jet_mul(&l[0], &r[0][c]);
+    for (int k = 1; k < 3; ++k) {
+        const jet term = jet_mul(&l[k], &r[k][c]);
+        sum = jet_add(&sum, &term);
+    }
+    return c == 3 ? jet_add(&sum, &l[3]) : sum;
+}
+
+/* Applies `then` after `first`. */
+static void compose(const affine *then, affine *first)
+{
+    const affine was = *first;
+    for (int i = 0; i < 3; ++i)
+        for (int c = 0; c < 4; ++c) {
+            first->wide[i][c] = sum_of_products(then->wide[i], was.wide, c);
+            first->centre[i][c] = sum_of_products(then->centre[i], was.centre, c);
+            jet_narrow(&first->wide[i][c], &first->centre[i][c], first->offset);
+        }
+}
+
+/* The affine map of a whole chain. */
+static enclosed take_chain(const place *p, double lo, double hi, affine *all, bool *all_affine,
+                           split *divide)
+{
+    const box3 times = {{-INFINITY, -INFINITY, lo}, {INFINITY, INFINITY, hi}};
+    affine next;
+    *all_affine = p->maps > 0;
+    for (size_t k = 1; k <= p->maps; ++k) {
+        const part *found;
+        const piece *map = enclose_piece(p, k);
+        const enclosed result = enclose_choose(map, &times, &found, divide);
+        if (result != ENCLOSED) return result == ENCLOSED_EMPTY ? ENCLOSED_UNSAID : result;
+        *all_affine =
+            *all_affine && found->is_affine && enclose_next_part(map, found, &times) == NULL;
+        if (!*all_affine) continue;
+        take_affine(found, lo, hi, p->room, k == 1 ? all : &next);
+        if (k > 1) compose(&next, all);
+    }
+    return ENCLOSED;
+}
+
+enclosed motion_bound(const place *p, double lo, double hi, motion *m, bool *all_affine,
+                      split *divide)
+{
+    affine all;
+    const enclosed result = take_chain(p, lo, hi, &all, all_affine, divide);
+    for (int i = 0; i < 3; ++i)
+        for (int c = 0; c < 4 && *all_affine && result == ENCLOSED; ++c)
+            *all_affine = motion_of_jets(&all.wide[i][c], &all.centre[i][c], lo, hi, m->m[i][c],
+                                         &m->error[i][c], &m->size[i][c]);
+    return result;
+}
+
+/* Returns the element i, k of N^T E N, N being M and d - c. */
+static jet form_of(const jet n[3][4], ld_interval e[3][3], int i, int k)
+{
+    jet sum = jet_constant(1, ld_interval_of(0));
+    for (int a = 0; a < 3; ++a)
+        for (int b = 0; b < 3; ++b) {
+            if (ld_interval_is(e[a][b], 0)) continue;
+            const jet both = jet_mul(&n[a][i], &n[b][k]);
+            const jet term = jet_scale(&both, e[a][b]);
+            sum = jet_add(&sum, &term);
+        }
+    return sum;
+}
+
+/* Computes N^T E N over some times. False: the maps may not be affine there. */
+static bool take_form(const place *p, double lo, double hi, const double c[3], ld_interval e[3][3],
+                      ld_interval g[4][4])
+{
+    affine n;
+    bool all_affine;
+    split unused;
+    if (take_chain(p, lo, hi, &n, &all_affine, &unused) != ENCLOSED || !all_affine) return false;
+    for (int i = 0; i < 3; ++i) {
+        const jet at = jet_constant(1, ld_interval_of(c[i]));
+        n.wide[i][3] = jet_sub(&n.wide[i][3], &at);
+        n.centre[i][3] = jet_sub(&n.centre[i][3], &at);
+    }
+    for (int i = 0; i < 4; ++i)
+        for (int k = 0; k < 4; ++k) {
+            const jet wide = form_of(n.wide, e, i, k), narrow = form_of(n.centre, e, i, k);
+            g[i][k] = jet_values(&wide, &narrow, n.offset);
+        }
+    return true;
+}
+
+enum { SLIP_PARTS = 16 };
+
+/* Lemma. x^T E x = h^T N^T E N h for h = (p, 1), which changes by no more than the sum of the
+ * changes of the elements of N^T E N, times |h| |h|. Each time is in one of the parts. */
+double motion_slip_upper(const place *p, double lo, double hi, const double c[3],
+                         ld_interval e[3][3], const double size[3])
+{
+    const double h[4] = {size[0], size[1], size[2], 1}, at = middle(lo, hi);
+    ld_interval before[4][4], now[4][4];
+    double most = 0, from = lo;
+    if (p->maps == 0) return 0;
+    if (!take_form(p, at, at, c, e, before)) return INFINITY;
+    for (int n = 1; n <= SLIP_PARTS; ++n) {
+        const double to = n < SLIP_PARTS ? proof_smaller(lo + (hi - lo) * n / SLIP_PARTS, hi) : hi;
+        ld_interval sum = ld_interval_of(0);
+        if (!take_form(p, from, to, c, e, now)) return INFINITY;
+        for (int i = 0; i < 4; ++i)
+            for (int k = 0; k < 4; ++k) {
+                const ld_interval change = ld_interval_sub(now[i][k], before[i][k]);
+                const ld_interval by = ld_interval_mul(ld_interval_of(h[i]), ld_interval_of(h[k]));
+                sum = ld_interval_add(sum, ld_interval_mul(ld_interval_abs(change), by));
+            }
+        most = proof_larger(sum.hi, most);
+        from = to;
+    }
+    return most;
+}
+
+/* --- Rigid maps ------------------------------------------------------------------------------- */
+
+/* Returns the element i, k of J^T J - 1. */
+static jet gram(const jet j[3][4], int i, int k)
+{
+    jet sum = jet_constant(1, ld_interval_of(i == k ? -1 : 0));
+    for (int l = 0; l < 3; ++l) {
+        const jet both = jet_mul(&j[l][i], &j[l][k]);
+        sum = jet_add(&sum, &both);
+    }
+    return sum;
+}
+
+/* Lemma. The largest sum of a row bounds the norm of a symmetric matrix. */
+static double deviation(const part *p, double lo, double hi, jet room[])
+{
+    affine a;
+    if (!p->is_affine) return INFINITY;
+    take_affine(p, lo, hi, room, &a);
+    double most = 0;
+    for (int i = 0; i < 3; ++i) {
+        ld_interval row = ld_interval_of(0);
+        for (int k = 0; k < 3; ++k) {
+            const jet over = gram(a.wide, i, k), middle = gram(a.centre, i, k);
+            row = ld_interval_add(row, ld_interval_abs(jet_values(&over, &middle, a.offset)));
+        }
+        if (!(row.hi <= most)) most = row.hi;
+    }
+    return most;
+}
+
+/* Times are halved until d is small or this deep. */
+enum { HALVINGS = 14 };
+#define DEVIATION_SMALL 0x1p-26
+
+static double worst(const piece *p, double lo, double hi, int depth, jet room[])
+{
+    const part *found;
+    split divide;
+    const box3 times = {{-INFINITY, -INFINITY, lo}, {INFINITY, INFINITY, hi}};
+    const enclosed result = enclose_choose(p, &times, &found, &divide);
+    double at = lo + 0.5 * (hi - lo);
+    if (result != ENCLOSED && result != ENCLOSED_SPLIT) return INFINITY;
+    if (result == ENCLOSED) {
+        double d = 0, there = 0;
+        for (const part *q = found; q != NULL; q = enclose_next_part(p, q, &times)) {
+            d = proof_larger(d, deviation(q, lo, hi, room));
+            there = proof_larger(there, deviation(q, at, at, room));
+        }
+        if (d <= DEVIATION_SMALL || depth >= HALVINGS || !(lo < at && at < hi) || isinf(d))
+            return d;
+        if (there > 0.5 * d) return d; /* it is no smaller there */
+    } else {
+        at = divide.at;
+    }
+    depth += result == ENCLOSED;
+    const double first = worst(p, lo, at, depth, room);
+    const double second = worst(p, at, hi, depth, room);
+    return !(first <= second) ? first : second;
+}
+
+double map_deviation_upper(const statement *s, size_t map, double lo, double hi, jet *room)
+{
+    return worst(&s->stages[map].pieces[0], lo, hi, 0, room);
+}

@@ -1,0 +1,32 @@
+/* SPDX-FileCopyrightText: The Impinge authors
+ * SPDX-License-Identifier: Apache-2.0 */
+#ifndef TOOLS_VERIFY_MOTION_H
+#define TOOLS_VERIFY_MOTION_H
+
+#include "tools/verify/enclose.h"
+#include "tools/verify/net.h"
+
+/* Affine maps of a chain, and polynomials
+ * =======================================
+ * Most maps take x to M x + d, M and d depending on time alone, and most shapes do not move by
+ * themselves: either is bounded once for all boxes of the other. */
+
+/* Notes of each part whether it is an affine map, or else a polynomial. */
+void motion_prepare(statement *s);
+
+/* Bounds the maps of a place over the times from lo to hi, if all of them are affine, *is_affine.
+ */
+enclosed motion_bound(const place *p, double lo, double hi, motion *m, bool *is_affine,
+                      split *divide);
+
+/* Returns an upper bound of how much x^T E x changes over the times from lo to hi, x = M p + d - c,
+ * |p[i]| <= size[i], from what it is at their middle; INFINITY: the maps may not be affine. */
+double motion_slip_upper(const place *p, double lo, double hi, const double c[3],
+                         ld_interval e[3][3], const double size[3]);
+
+/* Returns an upper bound d of |J^T J - 1| for the Jacobian J of a map, at all times from lo to hi.
+ * If d < 1, the map is affine at each time, and multiplies no length by less than the root of 1 -
+ * d. INFINITY: it may not be affine. */
+double map_deviation_upper(const statement *s, size_t map, double lo, double hi, jet *room);
+
+#endif
