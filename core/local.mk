@@ -264,6 +264,7 @@ core_reader = \
     core/reader/scene_definitions.c \
     core/reader/scene_instances.c core/reader/scene_instances.h \
     core/reader/scene_pair.c \
+    core/reader/scene_parts.c core/reader/scene_parts.h \
     core/reader/scene_json.c core/reader/scene_json.h \
     core/reader/scene_label.c core/reader/scene_label.h \
     core/reader/scene_shared.c \

@@ -37,6 +37,7 @@ plugin_LTLIBRARIES = \
     plugins/sweep.la \
     plugins/taper.la \
     plugins/thread.la \
+    plugins/tolerance.la \
     plugins/torus.la \
     plugins/trajectory.la \
     plugins/translate.la \
@@ -119,6 +120,8 @@ plugins_taper_la_SOURCES = plugins/maps/taper.c
 plugins_taper_la_LDFLAGS = $(plugin_ldflags)
 plugins_thread_la_SOURCES = plugins/surfaces/thread.c
 plugins_thread_la_LDFLAGS = $(plugin_ldflags)
+plugins_tolerance_la_SOURCES = plugins/maps/tolerance.c
+plugins_tolerance_la_LDFLAGS = $(plugin_ldflags)
 plugins_torus_la_SOURCES = plugins/surfaces/torus.c
 plugins_torus_la_LDFLAGS = $(plugin_ldflags)
 plugins_trajectory_la_SOURCES = plugins/maps/trajectory.c

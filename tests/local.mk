@@ -104,6 +104,7 @@ check_suites = \
     tests/unit/test_survey_parts \
     tests/unit/test_threads \
     tests/unit/test_times \
+    tests/unit/test_tolerance \
     tests/unit/test_touchings
 
 # The same, with MPFI as the judge of bounds; the longest first.

@@ -21,6 +21,7 @@ OFFERS(map, apply)
 OFFERS(map, net)
 OFFERS(map, rigid)
 OFFERS(map, span)
+OFFERS(map, parts)
 
 #define OFFERS_FORMULA(KIND)                                                                       \
     static bool KIND##_offers_formula(const imp_##KIND##_type *type)                               \
@@ -43,6 +44,7 @@ const capability_row capabilities[CAPABILITIES] = {
                              "what changes no distance"},
     [CAPABILITY_FORMULA] = {"formula", surface_offers_formula, map_offers_formula, CAPABILITY_CORE,
                             NULL},
+    [CAPABILITY_PARTS] = {"parts", NULL, map_offers_parts, CAPABILITY_CORE, NULL},
 };
 
 bool surface_type_offers(const imp_surface_type *type, capability which)

@@ -23,6 +23,7 @@ typedef enum capability {
     CAPABILITY_DISTANCE,
     CAPABILITY_SYMMETRY,
     CAPABILITY_FORMULA,
+    CAPABILITY_PARTS,
     CAPABILITIES
 } capability;
 

@@ -168,7 +168,7 @@ typedef struct imp_type_info {
         *capabilities;   /* what this host uses of it, names with blanks between: "core", always;
                                  "order-2": the callback include (surfaces) or apply (maps);
                                  the callbacks "net", "pieces", "rigid", "span", "distance",
-                                 "symmetry"; "formula": the text or callback */
+                                 "symmetry"; "formula": the text or callback; "parts": of a map */
     const char *formula; /* as in imp_surface_type: a text with the parameters' names; or NULL */
 } imp_type_info;
 
@@ -396,6 +396,13 @@ IMP_EXPORT bool imp_scene_follows(const imp_scene *scene, size_t body, size_t in
  * parameters, which shares with the other what create made. IMP_ERROR_USAGE: a value is out of its
  * range. NULL on error. The caller frees the scene. [any thread] */
 IMP_EXPORT imp_scene *imp_scene_at(const imp_scene *scene, const double *values, imp_error *error);
+
+/* Makes the scene in which parameter `index` is in the place of time, over its range: its t is then
+ * that parameter. The others stand at these values, and what follows time at time t. So an
+ * animation sweeps a parameter. IMP_ERROR_USAGE: a value is out of its range, or something is not
+ * defined at t. NULL on error. The caller frees the scene. [any thread] */
+IMP_EXPORT imp_scene *imp_scene_sweep(const imp_scene *scene, size_t index, const double *values,
+                                      double t, imp_error *error);
 
 /* --- Scene: what it holds --------------------------------------------------------------------- */
 

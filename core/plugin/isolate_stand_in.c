@@ -227,7 +227,7 @@ static imp_status map_rigid_of(const void *self, const imp_model *t, imp_pose *p
     return status;
 }
 
-_Static_assert(CAPABILITIES == 9, "stand-ins offer what their types do");
+_Static_assert(CAPABILITIES == 10, "stand-ins offer what their types do");
 
 isolated *isolate_surface(worker_pool *pool, const imp_surface_type *type)
 {
@@ -276,7 +276,8 @@ isolated *isolate_map(worker_pool *pool, const imp_map_type *type)
                        .rigid = IMP_OFFERS(type, rigid) ? map_rigid_of : NULL,
                        .span = IMP_OFFERS(type, span) ? map_span_of : NULL,
                        .formula = IMP_OFFERS(type, formula) ? type->formula : NULL,
-                       .write_formula = IMP_OFFERS(type, write_formula) ? write_formula_of : NULL};
+                       .write_formula = IMP_OFFERS(type, write_formula) ? write_formula_of : NULL,
+                       .parts = IMP_OFFERS(type, parts) ? type->parts : NULL};
     return i;
 }
 

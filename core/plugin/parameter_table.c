@@ -85,3 +85,8 @@ parameter_words parameter_shape_words(const imp_parameter *row, uint32_t depth)
     if (has_range(row)) text_append(text, sizeof words.at, " %s", parameter_range_words(row).at);
     return words;
 }
+
+size_t parameter_name_length(const char *text)
+{
+    return strspn(text, "abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789_");
+}

@@ -22,6 +22,9 @@ const imp_parameter *parameter_table_row(const parameter_table *table, size_t in
 /* Returns the index of the row of that name, or -1. */
 ptrdiff_t parameter_table_find(const parameter_table *table, const char *name);
 
+/* Returns how many bytes at the beginning of the text could be of a parameter's name. */
+size_t parameter_name_length(const char *text);
+
 /* Returns the parameter's name nearest to `name`, or NULL if none is near. */
 const char *parameter_table_nearest(const parameter_table *table, const char *name);
 

@@ -117,6 +117,24 @@ static imp_code check_table(const parameter_table *table, const place *type, imp
     return code;
 }
 
+/* Every $NAME in the parts is a parameter of numbers that is always there. */
+static imp_code check_parts(const type_view *view, const place *type, imp_error *error)
+{
+    char name[TEXT_NAME_MAX + 1];
+    for (const char *at = strchr(view->parts, '$'); at != NULL; at = strchr(at + 1, '$')) {
+        const size_t length = parameter_name_length(at + 1);
+        snprintf(name, sizeof name, "%.*s", (int)length, at + 1);
+        const ptrdiff_t row = length < sizeof name ? parameter_table_find(&view->table, name) : -1;
+        const imp_parameter *of = row < 0 ? NULL : parameter_table_row(&view->table, (size_t)row);
+        if (of == NULL || of->kind != IMP_KIND_NUMBER || (of->flags & IMP_PARAMETER_OPTIONAL) != 0)
+            return place_error(type, error, IMP_ERROR_PLUGIN,
+                               "parts name '$%s', which must be a parameter of numbers that is "
+                               "required or has a default",
+                               name);
+    }
+    return IMP_SUCCESS;
+}
+
 /* The name first: other faults are reported with it. */
 static imp_code check_view(const type_view *view, const char *null_callback, imp_error *error)
 {
@@ -124,7 +142,8 @@ static imp_code check_view(const type_view *view, const char *null_callback, imp
                                  {"equation", view->equation},
                                  {"example", view->example},
                                  {"source", view->source != NULL ? view->source : ""},
-                                 {"formula", view->formula != NULL ? view->formula : ""}};
+                                 {"formula", view->formula != NULL ? view->formula : ""},
+                                 {"parts", view->parts != NULL ? view->parts : ""}};
     if (!text_is_name(view->name, "_-"))
         return error_set(
             error, IMP_ERROR_PLUGIN,
@@ -142,7 +161,8 @@ static imp_code check_view(const type_view *view, const char *null_callback, imp
             "%s is NULL; only include, apply, net, rigid, span, distance, symmetry, formula and "
             "write_formula may be",
             null_callback);
-    return check_table(&view->table, &type, error);
+    const imp_code code = check_table(&view->table, &type, error);
+    return code == IMP_SUCCESS && view->parts != NULL ? check_parts(view, &type, error) : code;
 }
 
 /* `allowed`: all flags that the type may have. *name is read only after the size is known to

@@ -16,6 +16,7 @@ typedef struct type_view {
     const char *name, *summary, *equation, *source, *example;
     const char *formula; /* NULL: there is no constant text */
     bool has_formula;    /* that, or the callback */
+    const char *parts;   /* of a map that stands for several; NULL: it is one */
     parameter_table table;
     imp_status (*create)(const imp_value *values, void **self, imp_create_error *why);
     void (*destroy)(void *self);
@@ -39,7 +40,9 @@ static inline type_view type_view_of_surface(const imp_surface_type *type)
 
 static inline type_view type_view_of_map(const imp_map_type *type)
 {
-    return (type_view)TYPE_VIEW_OF(type);
+    type_view view = TYPE_VIEW_OF(type);
+    view.parts = IMP_OFFERS(type, parts) ? type->parts : NULL;
+    return view;
 }
 
 #endif

@@ -12,21 +12,19 @@
  * at once (scene_build_numbers). Others, and those that do not fit the type, go the way of scene
  * files: they become the JSON object that a file would have (arguments.h), never text. */
 
-/* Makes the instance of a type's name and arguments. Maps are looked up by what they were made from
- * (instance_table.h), which takes the object; an equal one is then not created again. */
-static imp_code make(imp_builder *b, imp_type_kind kind, const char *type,
-                     const imp_argument *arguments, size_t count, const place *at,
-                     shared_instance **made, imp_error *error)
+/* Makes the surface of a type's name and arguments. */
+static imp_code make(imp_builder *b, const char *type, const imp_argument *arguments, size_t count,
+                     const place *at, shared_instance **made, imp_error *error)
 {
     json_t *object;
     imp_code code = IMP_SUCCESS;
-    if (kind == IMP_TYPE_SURFACE && type != NULL)
-        code = scene_build_numbers(&b->bodies.instances.source, kind, type, arguments, count, at,
-                                   made, error);
+    if (type != NULL)
+        code = scene_build_numbers(&b->bodies.instances.source, IMP_TYPE_SURFACE, type, arguments,
+                                   count, at, made, error);
     if (code != IMP_SUCCESS || *made != NULL) return code;
     code = arguments_to_json(type, arguments, count, at, &object, error);
     if (code != IMP_SUCCESS) return code;
-    code = scene_instances_make(&b->bodies.instances, kind, object, at, made);
+    code = scene_instances_make(&b->bodies.instances, IMP_TYPE_SURFACE, object, at, made);
     json_decref(object);
     return code;
 }
@@ -41,7 +39,7 @@ static FP_APART imp_code add_surface(imp_builder *b, size_t body, const char *ty
     const place whole = place_argument(NULL, words.at), at = place_argument(&whole, surface_words);
     const instance_list no_maps = {.count = 0};
     shared_instance *made = NULL;
-    imp_code code = make(b, IMP_TYPE_SURFACE, type, arguments, count, &at, &made, error);
+    imp_code code = make(b, type, arguments, count, &at, &made, error);
     if (code == IMP_SUCCESS && !shape_list_add(shapes, made, &no_maps))
         code = error_set_memory(error);
     instance_release(made);
@@ -90,7 +88,8 @@ imp_code imp_builder_surface_of(imp_builder *b, size_t body, const imp_scene *sc
     return code;
 }
 
-/* On top of the maps in the list, which are of what `whose` says. */
+/* On top of the maps in the list, which are of what `whose` says. Maps are looked up by what they
+ * were made from (instance_table.h), which takes an object. */
 static FP_APART imp_code add_map(imp_builder *b, size_t body, const char *whose,
                                  instance_list *maps, const char *type,
                                  const imp_argument *arguments, size_t count, imp_error *error)
@@ -99,10 +98,11 @@ static FP_APART imp_code add_map(imp_builder *b, size_t body, const char *whose,
     char map_words[80];
     snprintf(map_words, sizeof map_words, "%smap %zu", whose, maps->count);
     const place whole = place_argument(NULL, words.at), at = place_argument(&whole, map_words);
-    shared_instance *made = NULL;
-    imp_code code = make(b, IMP_TYPE_MAP, type, arguments, count, &at, &made, error);
-    if (code == IMP_SUCCESS && !instance_list_add(maps, made)) code = error_set_memory(error);
-    instance_release(made);
+    json_t *object;
+    imp_code code = arguments_to_json(type, arguments, count, &at, &object, error);
+    if (code != IMP_SUCCESS) return code;
+    code = scene_instances_map(&b->bodies.instances, object, &at, maps);
+    json_decref(object);
     return code;
 }
 

@@ -13,6 +13,7 @@
 #include "core/common/spelling.h"
 #include "core/plugin/json_describe.h"
 #include "core/reader/json_keys.h"
+#include "core/reader/scene_parts.h"
 #include "core/surface/clocked.h"
 
 /* --- Parameters ------------------------------------------------------------------------------- */
@@ -36,11 +37,13 @@ imp_code scene_instances_parameter(scene_instances *p, const char *name, double 
 }
 
 /* Adds the parameter of "clock": [lo, hi], which is the instance's own. Its name is TYPE#N, with
- * the first N that makes it new. *k: its index. */
+ * the first N that makes it new; of a part, the type is that of the whole. *k: its index. */
 static imp_code add_own_parameter(scene_instances *p, const json_t *object, const json_t *clock,
                                   const place *at, size_t *k)
 {
     const json_t *lo = json_array_get(clock, 0), *hi = json_array_get(clock, 1);
+    const char *type =
+        p->whole != NULL ? p->whole : json_string_value(json_object_get(object, "type"));
     char name[100];
     if (json_array_size(clock) != 2 || !json_is_number(lo) || !json_is_number(hi))
         return place_error(at, p->error, IMP_ERROR_SCENE,
@@ -49,8 +52,7 @@ static imp_code add_own_parameter(scene_instances *p, const json_t *object, cons
                            json_describe(clock).at);
     *k = p->parameters->count;
     for (size_t n = 1;; ++n) {
-        snprintf(name, sizeof name, "%.70s#%zu", json_string_value(json_object_get(object, "type")),
-                 n);
+        snprintf(name, sizeof name, "%.70s#%zu", type, n);
         if (scene_parameters_find(p->parameters, name) == *k) break;
     }
     return scene_instances_parameter(p, name, json_number_value(lo), json_number_value(hi), at);
@@ -152,6 +154,43 @@ static imp_code refuse_maps(const scene_instances *p, const place *at)
                        "they apply");
 }
 
+static imp_code add_one_map(scene_instances *p, json_t *object, const place *at, instance_list *to)
+{
+    shared_instance *made = NULL;
+    imp_code code = scene_instances_make(p, IMP_TYPE_MAP, object, at, &made);
+    if (code == IMP_SUCCESS) code = keep(p, instance_list_add(to, made));
+    instance_release(made);
+    return code;
+}
+
+/* The instance of the whole is made for what its create refuses. */
+static imp_code add_parts(scene_instances *p, json_t *object, const place *at, instance_list *to)
+{
+    const char *type = json_string_value(json_object_get(object, "type"));
+    const place member = at->argument ? place_argument(at, "clock") : place_key(at, "clock");
+    shared_instance *whole = NULL;
+    json_t *parts = NULL;
+    if (json_object_get(object, "clock") != NULL)
+        return place_error(&member, p->error, IMP_ERROR_SCENE,
+                           "'%s' has clocks of its own; leave it out", type);
+    imp_code code = scene_instances_make(p, IMP_TYPE_MAP, object, at, &whole);
+    instance_release(whole);
+    if (code == IMP_SUCCESS)
+        code = scene_parts_list(p->source.registry, object, at, &parts, p->error);
+    p->whole = type;
+    for (size_t k = 0; k < json_array_size(parts) && code == IMP_SUCCESS; ++k)
+        code = add_one_map(p, json_array_get(parts, k), at, to);
+    p->whole = NULL;
+    json_decref(parts);
+    return code;
+}
+
+imp_code scene_instances_map(scene_instances *p, json_t *object, const place *at, instance_list *to)
+{
+    return scene_parts_are_named(p->source.registry, object) ? add_parts(p, object, at, to)
+                                                             : add_one_map(p, object, at, to);
+}
+
 static imp_code add_map(scene_instances *p, json_t *element, const place *at, instance_list *to)
 {
     if (json_is_string(element)) {
@@ -161,11 +200,7 @@ static imp_code add_map(scene_instances *p, json_t *element, const place *at, in
         return code == IMP_SUCCESS ? keep(p, instance_list_add_all(to, &used->maps)) : code;
     }
     if (json_object_get(element, "maps") != NULL) return refuse_maps(p, at);
-    shared_instance *made = NULL;
-    imp_code code = scene_instances_make(p, IMP_TYPE_MAP, element, at, &made);
-    if (code == IMP_SUCCESS) code = keep(p, instance_list_add(to, made));
-    instance_release(made);
-    return code;
+    return scene_instances_map(p, element, at, to);
 }
 
 imp_code scene_instances_maps(scene_instances *p, const json_t *array, const place *at,

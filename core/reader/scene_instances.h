@@ -41,10 +41,11 @@ typedef struct scene_instances {
     instance_table made;
     definition *definitions;
     size_t count;
-    json_t *names;  /* of definitions, to their index */
-    unsigned depth; /* of definitions that are being read */
-    size_t shared;  /* how much definitions have put into the scene, and into each other */
-    place root;     /* the scene's */
+    json_t *names;     /* of definitions, to their index */
+    const char *whole; /* type of the map whose parts are being made; NULL: none are */
+    unsigned depth;    /* of definitions that are being read */
+    size_t shared;     /* how much definitions have put into the scene, and into each other */
+    place root;        /* the scene's */
     imp_error *error;
 } scene_instances;
 
@@ -64,6 +65,10 @@ imp_code scene_instances_parameter(scene_instances *p, const char *name, double 
  * that has a clock of its own is always new. The caller releases it. */
 imp_code scene_instances_make(scene_instances *p, imp_type_kind kind, json_t *object,
                               const place *at, shared_instance **made);
+
+/* Adds the map that the object describes, or the parts that stand for it (scene_parts.h). */
+imp_code scene_instances_map(scene_instances *p, json_t *object, const place *at,
+                             instance_list *to);
 
 /* Adds what the array at `at` asks for; NULL is an empty one. */
 imp_code scene_instances_maps(scene_instances *p, const json_t *array, const place *at,

@@ -22,6 +22,7 @@ typedef struct moved_instance {
 typedef struct posing_scene {
     const double *values;
     size_t released;
+    double time; /* what follows time is held at; NAN: it is not */
     moved_instance *moved;
     size_t count, capacity;
 } posing_scene;
@@ -29,14 +30,17 @@ typedef struct posing_scene {
 /* Returns the instance at the values, which `p` or the scene holds. NULL: no memory. */
 static shared_instance *at_values(posing_scene *p, shared_instance *from)
 {
-    if (from->inner == NULL) return from;
-    if (from->clock == p->released) return from->inner;
+    const bool is_clocked = from->inner != NULL;
+    if (!is_clocked && isnan(p->time)) return from;
+    if (is_clocked && from->clock == p->released) return from->inner;
     for (size_t k = 0; k < p->count; ++k)
         if (p->moved[k].from == from) return p->moved[k].to;
     moved_instance *grown = array_reserve(p->moved, p->count, &p->capacity, sizeof *grown);
     if (grown == NULL) return NULL;
     p->moved = grown;
-    shared_instance *made = clocked_new(from->inner, from->clock, p->values[from->clock]);
+    shared_instance *made = is_clocked
+                                ? clocked_new(from->inner, from->clock, p->values[from->clock])
+                                : clocked_new(from, 0, p->time);
     if (made != NULL) p->moved[p->count++] = (moved_instance){from, made};
     return made;
 }
@@ -74,10 +78,9 @@ static imp_code add_body(posing_scene *p, const imp_scene *scene, size_t body, i
     return code;
 }
 
-imp_code posed_scene_of_bodies(const imp_scene *scene, const double *values, const size_t *bodies,
-                               size_t count, size_t released, imp_scene **made)
+static imp_code pose(posing_scene p, const imp_scene *scene, const size_t *bodies, size_t count,
+                     imp_scene **made)
 {
-    posing_scene p = {.values = values, .released = released};
     imp_scene *to = scene_new();
     imp_code code = to != NULL ? IMP_SUCCESS : IMP_ERROR_MEMORY;
     if (to != NULL) scene_set_store(to, scene_store(scene));
@@ -93,6 +96,13 @@ imp_code posed_scene_of_bodies(const imp_scene *scene, const double *values, con
     else
         imp_scene_free(to);
     return code;
+}
+
+imp_code posed_scene_of_bodies(const imp_scene *scene, const double *values, const size_t *bodies,
+                               size_t count, size_t released, imp_scene **made)
+{
+    const posing_scene p = {.values = values, .released = released, .time = NAN};
+    return pose(p, scene, bodies, count, made);
 }
 
 /* --- Public functions ------------------------------------------------------------------------- */
@@ -123,16 +133,16 @@ static imp_code check_values(const imp_scene *scene, const double *values, imp_e
     return IMP_SUCCESS;
 }
 
-FP_APART static imp_code scene_at(const imp_scene *scene, const double *values, imp_scene **made,
-                                  imp_error *error)
+/* Makes the scene of all bodies. */
+static imp_code pose_all(posing_scene p, const imp_scene *scene, imp_scene **made, imp_error *error)
 {
     const size_t count = scene_body_count(scene);
-    imp_code code = check_values(scene, values, error);
+    imp_code code = check_values(scene, p.values, error);
     if (code != IMP_SUCCESS) return code;
     size_t *bodies = malloc((count + 1) * sizeof *bodies);
     if (bodies == NULL) return error_set_memory(error);
     for (size_t b = 0; b < count; ++b) bodies[b] = b;
-    code = posed_scene_of_bodies(scene, values, bodies, count, SIZE_MAX, made);
+    code = pose(p, scene, bodies, count, made);
     free(bodies);
     if (code == IMP_SUCCESS) {
         code = scene_copy_relations(scene, *made);
@@ -149,7 +159,62 @@ imp_scene *imp_scene_at(const imp_scene *scene, const double *values, imp_error 
         return NULL;
     }
     const fp_environment environment = fp_environment_enter();
-    const imp_code code = scene_at(scene, values, &made, error);
+    const posing_scene p = {.values = values, .released = SIZE_MAX, .time = NAN};
+    const imp_code code = pose_all(p, scene, &made, error);
+    fp_environment_leave(&environment);
+    return code == IMP_SUCCESS ? made : NULL;
+}
+
+/* --- A parameter in the place of time --------------------------------------------------------- */
+
+static imp_code check_instance(const shared_instance *one, double t, const char *body,
+                               imp_error *error)
+{
+    if (one->inner != NULL || (one->lo[2] <= t && t <= one->hi[2])) return IMP_SUCCESS;
+    return error_set(error, IMP_ERROR_USAGE,
+                     "t: got %.17g, but body '%.80s' has a surface or map that follows time and is "
+                     "defined from %.17g to %.17g only",
+                     t, body, one->lo[2], one->hi[2]);
+}
+
+/* Checks that everything that follows time is defined at t. */
+static imp_code check_held(const imp_scene *scene, double t, imp_error *error)
+{
+    imp_code code = isfinite(t) ? IMP_SUCCESS
+                                : error_set(error, IMP_ERROR_USAGE, "t: got %g, must be finite", t);
+    for (size_t b = 0; b < scene_body_count(scene); ++b)
+        for (size_t k = 0; k < scene_surface_count(scene, b); ++k) {
+            const surface *s = scene_surface(scene, b, k);
+            for (size_t stage = 0; stage <= surface_map_count(s) && code == IMP_SUCCESS; ++stage)
+                code = check_instance(surface_stage(s, stage), t, imp_scene_body_name(scene, b),
+                                      error);
+        }
+    return code;
+}
+
+static imp_code sweep(const imp_scene *scene, size_t index, const double *values, double t,
+                      imp_scene **made, imp_error *error)
+{
+    const scene_parameters *parameters = scene_parameters_read(scene);
+    if (index >= parameters->count)
+        return error_set(error, IMP_ERROR_USAGE, "index: got %zu, must be below %zu", index,
+                         parameters->count);
+    imp_code code = check_held(scene, t, error);
+    const posing_scene p = {.values = values, .released = index, .time = t};
+    if (code == IMP_SUCCESS) code = pose_all(p, scene, made, error);
+    if (code != IMP_SUCCESS) return code;
+    scene_settings_of(*made)->t_start = parameters->at[index].lo;
+    scene_settings_of(*made)->t_end = parameters->at[index].hi;
+    return IMP_SUCCESS;
+}
+
+imp_scene *imp_scene_sweep(const imp_scene *scene, size_t index, const double *values, double t,
+                           imp_error *error)
+{
+    imp_scene *made = NULL;
+    if (scene == NULL || values == NULL) return error_set_missing(error, "imp_scene_sweep"), NULL;
+    const fp_environment environment = fp_environment_enter();
+    const imp_code code = sweep(scene, index, values, t, &made, error);
     fp_environment_leave(&environment);
     return code == IMP_SUCCESS ? made : NULL;
 }

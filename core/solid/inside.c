@@ -145,7 +145,8 @@ static imp_code make_solid(const holding *h, solid **made)
     s->t = h->t;
     solid **slot = &s->solids[h->solid];
     const double passed = 2 * s->plan.gamma_clear;
-    const double slack = s->plan.gamma < passed ? s->plan.gamma : passed;
+    const double most = s->plan.seam < passed ? s->plan.seam : passed;
+    const double slack = s->plan.gamma < most ? s->plan.gamma : most;
     imp_code code = IMP_SUCCESS;
     if (*slot == NULL)
         code = solid_new(s->plan.scene, h->solid, h->t, slack, s->plan.watch, slot, h->error);

@@ -15,12 +15,14 @@
 typedef struct inside_search inside_search;
 
 /* What is asked. Parts of one body that are nearer to each other than gamma_clear count as being on
- * one side of the other body; edges within gamma of each other count as one seam. `from` and `to`
- * are the times of the query, whose trees give the boxes. `watch` must outlive the search. */
+ * one side of the other body; edges within gamma and `seam` of each other count as one seam.
+ * `from` and `to` are the times of the query, whose trees give the boxes. `watch` must outlive the
+ * search. */
 typedef struct inside_plan {
     imp_scene *scene;
     double gamma, gamma_clear, from, to;
     const limit_watch *watch;
+    double seam; /* length; INFINITY: no limit of its own */
 } inside_plan;
 
 inside_search *inside_new(const inside_plan *plan); /* NULL: no memory */

@@ -23,7 +23,8 @@ static imp_code begin(clearance_search *c, imp_error *error)
 {
     const imp_options *o = &c->options;
     const inside_plan plan = {c->scene,   o->gamma, tolerances_clear(o->gamma, o->gamma_clear),
-                              o->t_start, o->t_end, c->watch};
+                              o->t_start, o->t_end, c->watch,
+                              INFINITY};
     if (c->insides == NULL) c->insides = inside_new(&plan);
     return c->insides != NULL ? IMP_SUCCESS : error_set_memory(error);
 }

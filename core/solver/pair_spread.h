@@ -30,6 +30,10 @@ typedef struct query_spread {
  * contacts may then be farther apart than gamma allows, or later: only what is excluded counts. */
 void query_use_spread(imp_query *query, const query_spread *spread);
 
+/* Lets a query that has not begun refuse solids with seams wider than this, whatever its gamma: the
+ * gamma of a box has room for how far values move bodies. */
+void query_limit_seams(imp_query *query, double seam);
+
 struct impact;
 struct pair;
 

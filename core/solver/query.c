@@ -63,6 +63,7 @@ FP_APART static imp_query *new_query(imp_scene *scene, const imp_options *given,
                                     .t_lower = options->t_start,
                                     .window = {options->t_start, options->t_end},
                                     .stats = &query->stats},
+                         .seam = INFINITY,
                          .verdict = IMP_VERDICT_UNDECIDED,
                          .reason = IMP_REASON_RUNNING};
     scene_begin_use(scene);
@@ -100,6 +101,8 @@ void imp_query_cancel(imp_query *query)
 {
     if (query != NULL) atomic_store(&query->cancelled, true);
 }
+
+void query_limit_seams(imp_query *query, double seam) { query->seam = seam; }
 
 void query_use_spread(imp_query *query, const query_spread *spread)
 {

@@ -53,8 +53,9 @@ static void take_answer(imp_query *query, const inside_answer *answer)
 
 static imp_code begin(imp_query *query, imp_error *error)
 {
-    const inside_plan plan = {query->scene,           query->impact.gamma,  query->gamma_clear,
-                              query->options.t_start, query->options.t_end, &query->watch};
+    const inside_plan plan = {
+        query->scene,         query->impact.gamma, query->gamma_clear, query->options.t_start,
+        query->options.t_end, &query->watch,       query->seam};
     if (query->insides != NULL) return IMP_SUCCESS;
     query->insides = inside_new(&plan);
     query->inside_unknown = false;

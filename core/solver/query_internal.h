@@ -49,6 +49,7 @@ struct imp_query {
     double step_from[2];      /* seconds spent before this step; of the clock when it began */
     bool watch_ended;         /* a limit came */
     inside_search *insides;   /* NULL: not begun */
+    double seam;              /* most width of a seam of a solid; INFINITY: gamma says it */
     size_t insides_next;      /* of the candidate pairs, which bodies are asked about next */
     bool inside_unknown;      /* of two bodies it cannot be told, */
     size_t unknown_candidate; /* which are this pair's */

@@ -127,6 +127,13 @@ bool box_must_end(imp_survey *s, imp_reason reason)
     return true;
 }
 
+/* The seams that solids may have are those of the scene's tolerances, in every box. */
+static double seam_of(const imp_survey *s)
+{
+    const double twice = 2 * tolerances_clear(s->options.gamma, s->options.gamma_clear);
+    return s->options.gamma < twice ? s->options.gamma : twice;
+}
+
 imp_code box_run_contact(imp_survey *s, imp_scene *scene, query_times times, const double gamma[2],
                          uint64_t pairs, const query_spread *spread, imp_result *result,
                          imp_error *error)
@@ -138,6 +145,7 @@ imp_code box_run_contact(imp_survey *s, imp_scene *scene, query_times times, con
     imp_query *query = imp_query_new(scene, &options, error);
     if (query == NULL) return error != NULL ? error->code : IMP_ERROR_USAGE;
     query_use_spread(query, spread);
+    query_limit_seams(query, seam_of(s));
     imp_code code = imp_query_step(query, 0, error);
     if (code == IMP_SUCCESS) code = imp_query_get_result(query, result, error);
     if (code == IMP_SUCCESS) add_stats(s, &result->stats);

@@ -48,8 +48,8 @@ imp_code imp_survey_refine(imp_survey *s, double gamma, double gamma_clear, imp_
     imp_code code = check(s, gamma, gamma_clear, error);
     if (code == IMP_SUCCESS) {
         const bool is_clear = s->reason == IMP_REASON_NONE && s->verdict == IMP_VERDICT_CLEAR;
-        s->gamma = gamma;
-        s->gamma_clear = tolerances_clear(gamma, gamma_clear);
+        s->gamma = s->options.gamma = gamma;
+        s->gamma_clear = s->options.gamma_clear = tolerances_clear(gamma, gamma_clear);
         if (!is_clear) code = begin_at(s, survey_time_lower(s), error);
         s->failed = code != IMP_SUCCESS;
     }

@@ -528,6 +528,18 @@ typedef struct imp_map_type {
      * one for each span of times: of a table those between two of its rows. [thread-safe] */
     const char *formula;
     imp_status (*write_formula)(const void *self, const imp_text_sink *to);
+
+    /* Capability `parts`; NULL, or a struct_size that ends before it: it is one map, with one t.
+     *
+     * The maps that stand for this one in a scene, first to last, as after a '!':
+     * "rotate axis=1,0,0 rate=1 clock=-$angle,$angle ! translate velocity=1,0,0 clock=-$d,$d".
+     * $NAME is the value of that parameter, which is required or has a default and is a number, or
+     * several; it stands there as JSON. Each clock that is a range is a parameter of the scene of
+     * its own, named after this type: TYPE#1, TYPE#2, ...; so one map may move with more than one
+     * t. The parts are types that the host finds by name, and have no parts themselves. create is
+     * called for what it refuses; the other callbacks are those of the map where each clock is in
+     * the middle of its range. */
+    const char *parts;
 } imp_map_type;
 
 /* --- The plugin ------------------------------------------------------------------------------- */
@@ -690,12 +702,13 @@ IMP_LAYOUT(offsetof(imp_surface_type, write_formula) == 160);
 IMP_LAYOUT(sizeof(imp_pose) == 1680 && offsetof(imp_pose, shift) == 1224);
 IMP_LAYOUT(offsetof(imp_pose, pivot) == 1632 && offsetof(imp_pose, fixed) == 1656);
 IMP_LAYOUT(sizeof(imp_symmetry) == 56 && offsetof(imp_symmetry, center) == 8);
-IMP_LAYOUT(sizeof(imp_map_type) == 152 && offsetof(imp_map_type, name) == 16);
+IMP_LAYOUT(sizeof(imp_map_type) == 160 && offsetof(imp_map_type, name) == 16);
 IMP_LAYOUT(offsetof(imp_map_type, create) == 64 && offsetof(imp_map_type, apply) == 104);
 IMP_LAYOUT(offsetof(imp_map_type, net) == 112 && offsetof(imp_map_type, rigid) == 120);
 IMP_LAYOUT(offsetof(imp_map_type, span) == 128);
 IMP_LAYOUT(offsetof(imp_map_type, formula) == 136);
 IMP_LAYOUT(offsetof(imp_map_type, write_formula) == 144);
+IMP_LAYOUT(offsetof(imp_map_type, parts) == 152);
 IMP_LAYOUT(sizeof(imp_surface_factory) == 16 && sizeof(imp_map_factory) == 16);
 IMP_LAYOUT(sizeof(imp_plugin) == 56 && offsetof(imp_plugin, name) == 16);
 IMP_LAYOUT(offsetof(imp_plugin, get_factory) == 48);

@@ -137,6 +137,7 @@ static void types(void)
     CALL(imp_map_type, span, void (*)(const void *, double *, double *));
     FIELD(imp_map_type, formula), FIELD(imp_map_type, write_formula);
     CALL(imp_map_type, write_formula, imp_status(*)(const void *, const imp_text_sink *));
+    FIELD(imp_map_type, parts);
 }
 
 static void plugins(void)

@@ -71,6 +71,7 @@ follows() {
     follows 'screw pitch=.5 rate=6' 'cos(6*t)*x-sin(6*t)*y' 'sin(6*t)*x+cos(6*t)*y' 'z+1.5*t/pi'
     a='(1 - .5*t*clamp((z+1)/2, 0, 1))'
     follows 'taper end=[1,-.5]' "x*$a" "y*$a" z
+    follows 'tolerance offset=.5 angle=.1' x y z # in the middle of its parts
     follows 'twist rate=.5' 'cos(.5*z)*x-sin(.5*z)*y' 'sin(.5*z)*x+cos(.5*z)*y' z
     follows 'wave amplitude=0,0,.1 wave_vector=6,0,0' x y 'z+.1*sin(6*x-6*t)'
     a='clamp(y,-1,1)'

@@ -331,3 +331,71 @@ three() {
     json '.advice | contains("boxes were halved along")'
     json 'has("survey") | not'
 }
+
+# --- Tolerances, and sweeping a parameter -------------------------------------------------------------
+
+@test "a tolerance is six parameters of its own, also in a pipeline and isolated" {
+    for way in '' '--isolate all'; do
+        # shellcheck disable=SC2086 # an option and its value, or none
+        run -0 "$IMPINGE" clearance 'sphere ! tolerance offset=0.4 angle=0.01' 'sphere center=3.5,0,0' \
+            --tolerance 0.05 --json $way
+        valid clearance
+        json '.lower <= 1.1 and .lower >= 1.04 and (.parameters | keys | length == 6) and
+            .parameters["tolerance#4"] > 0.3'
+    done
+    fails 4 'has clocks of its own; leave it out' \
+        "$IMPINGE" pair 'sphere ! tolerance offset=0.4 clock=0,1' 'sphere center=3.5,0,0'
+    fails 4 'must be >= 0' "$IMPINGE" pair 'sphere ! tolerance offset=-1' 'sphere center=3.5,0,0'
+    printf '{"bodies": [%s, {"surfaces": [{"type": "sphere", "center": [9,0,0]}]}]}' \
+        "$(for k in 1 2 3 4 5 6; do echo '{"surfaces": [{"type": "sphere"}], "maps": [{"type": "tolerance", "offset": 1}]}'; done |
+            paste -sd,)" >many.json
+    fails 4 'more than 32 parameters' "$IMPINGE" solve many.json
+}
+
+@test "view sweeps a parameter in the place of time" {
+    arms 2.55 >arms.json
+    run -0 --separate-stderr "$IMPINGE" view arms.json --sweep a --at b=0 -o swept.svg
+    grep -q 'contact: a = -0\.[0-9]*, one and two' swept.svg
+    grep -q 'start: a = -1<' swept.svg
+    grep -q 'end: a = 1<' swept.svg
+    run -0 --separate-stderr "$IMPINGE" view arms.json --sweep a --time 0.5,1 -o part.svg
+    [[ $stderr == *'drawn at b = 0; '* ]]
+    grep -q ' a = 0.5' part.svg
+    run -0 --separate-stderr "$IMPINGE" view arms.json --sweep a --at b=0 -o swept.glb --frames 5
+    run -0 --separate-stderr "$IMPINGE" view arms.json --sweep a --at b=0 -o swept.html --frames 5
+    grep -q 'arms.json, t is a' swept.html
+    fails 2 "--sweep: the scene has no parameter 'c'" "$IMPINGE" view arms.json --sweep c -o x.svg
+    scene >plain.json
+    fails 2 "--sweep: the scene has no parameter 'c'" "$IMPINGE" view plain.json --sweep c -o x.svg
+    "$IMPINGE" solve arms.json --json >result.json
+    fails 2 '--sweep draws a scene, not a result' "$IMPINGE" view result.json --sweep a -o x.svg
+    [ ! -e x.svg ]
+}
+
+@test "what follows time stands still while a parameter is swept" {
+    arms 2.9 '0,0],[-0.3,0,0' >arms.json # 0.3 apart at time 0, in contact at 1
+    run -0 --separate-stderr "$IMPINGE" view arms.json --sweep a --at b=0 -o swept.svg
+    grep -q 'nearest: a = ' swept.svg
+    run -0 --separate-stderr "$IMPINGE" view arms.json --sweep a --at b=0,time=1 -o swept.svg
+    grep -q 'nearest: a = .* 0\.0*[0-9.e-]* apart' swept.svg || grep -q 'contact: a = ' swept.svg
+    fails 2 "the scene has no parameter 'time'" "$IMPINGE" view arms.json --at time=1 -o x.svg
+}
+
+@test "solids are closed within the scene's gamma, whatever room boxes of values need" {
+    # The lids leave a gap of 0.02, far above gamma; the box of values needs room for as much.
+    can() {
+        printf '{"gamma": 1e-3, "parameters": {"a": [-0.02, 0.02]}, "bodies": [{"name": "can", "solid": true,
+            "surfaces": [{"type": "cylinder", "radius": 0.3, "height": 0.6},
+            {"type": "disc", "radius": %s, "center": [0,0,-0.3]},
+            {"type": "disc", "radius": %s, "center": [0,0,0.3]}],
+            "maps": [{"type": "rotate", "axis": [0,1,0], "angle": [0.8]},
+            {"type": "translate", "velocity": [1,0,0], "clock": "a"}]}, {"name": "ball",
+            "surfaces": [{"type": "sphere", "radius": 0.02, "center": [0.38,0,0.38]}],
+            "maps": [{"type": "translate", "offset": [[0,0,0],[0.001,0,0]]}]}]}' "$1" "$1" >can.json
+    }
+    can 0.3
+    run -0 "$IMPINGE" solve can.json
+    [[ $output == clear* ]]
+    can 0.28
+    fails 4 'its surfaces are not closed within 0.001' "$IMPINGE" solve can.json
+}

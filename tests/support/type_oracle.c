@@ -111,6 +111,13 @@ static number polynomial(const type_arguments *arguments, const char *rate,
     return num_poly(all->number + i, all->extent[0], width, t);
 }
 
+/* In the middle of its parts a tolerance displaces nothing. */
+static void stay(const type_arguments *arguments, const number p[4], number x[3])
+{
+    (void)arguments;
+    for (int i = 0; i < 3; ++i) x[i] = p[i];
+}
+
 static void translate(const type_arguments *arguments, const number p[4], number x[3])
 {
     number way;
@@ -485,6 +492,9 @@ const type_oracle oracles[] = {
                    " \"end\": [?,?,?], \"range\": [-0.5,0.25]}",
                    "{\"range\": [0,1e-9], \"start\": 1, \"end\": 2}",
                    "{\"range\": [-1e8,1e8], \"end\": -1e3}"}},
+    {.type = "tolerance",
+     .map = stay,
+     .instances = {"{}", "{\"offset\": +, \"angle\": 0.1, \"center\": [?,?,?]}"}},
     {.type = "twist",
      .map = twist_oracle,
      .instances = {"{}", "{\"rate\": ?, \"axis\": [?,?,?], \"center\": [?,?,?]}",

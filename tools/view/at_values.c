@@ -65,6 +65,24 @@ static exit_status refuse_name(const imp_scene *scene, const at_part *part, cons
                     "--at: the scene has no parameter '%s'; `impinge info` lists them", name);
 }
 
+/* Finds the parameter of that name. The count of parameters: there is none. */
+static size_t find_parameter(const imp_scene *scene, const char *name, size_t length)
+{
+    imp_scene_parameter_info info;
+    size_t k = 0;
+    while (imp_scene_parameter(scene, k, &info) &&
+           !(strlen(info.name) == length && memcmp(info.name, name, length) == 0))
+        ++k;
+    return k;
+}
+
+/* --at time=T, with --sweep; the name belongs to no parameter. */
+static bool is_time(const at_part *part, const arguments *args)
+{
+    return arguments_option(args, "sweep") != NULL && part->equals == part->at + 4 &&
+           memcmp(part->at, "time", 4) == 0;
+}
+
 static exit_status set_value(const imp_scene *scene, const at_part *part, double *values,
                              const arguments *args)
 {
@@ -73,11 +91,10 @@ static exit_status set_value(const imp_scene *scene, const at_part *part, double
     char *end;
     const double value = strtod(part->equals + 1, &end);
     const bool is_number = end != part->equals + 1 && end == part->at + part->length;
-    size_t k = 0;
-    while (imp_scene_parameter(scene, k, &info) &&
-           !(strlen(info.name) == length && memcmp(info.name, part->at, length) == 0))
-        ++k;
-    if (k == imp_scene_parameter_count(scene)) return refuse_name(scene, part, args);
+    const size_t count = imp_scene_parameter_count(scene);
+    const size_t k = find_parameter(scene, part->at, length);
+    if (is_number && is_time(part, args)) return values[count] = value, EXIT_ANSWERED;
+    if (!imp_scene_parameter(scene, k, &info)) return refuse_name(scene, part, args);
     if (!is_number || !(value >= info.lo && value <= info.hi))
         return complain(EXIT_USAGE, args->verb->name,
                         "--at: '%s' must be from %.10g to %.10g, not '%.*s'", info.name, info.lo,
@@ -96,10 +113,12 @@ static exit_status read_values(const imp_scene *scene, const char *text, double 
     return status;
 }
 
-/* Sets the values of a result, or the middle of each range. */
+/* Sets the values of a result, or the middle of each range; behind them the time at which the scene
+ * begins. */
 static void usual_values(const imp_scene *scene, const json_t *known, double *values)
 {
     imp_scene_parameter_info info;
+    values[imp_scene_parameter_count(scene)] = imp_options_default(scene).t_start;
     for (size_t k = 0; imp_scene_parameter(scene, k, &info); ++k) {
         const json_t *one = json_object_get(known, info.name);
         const double value = json_is_number(one) ? json_number_value(one) : NAN;
@@ -110,33 +129,60 @@ static void usual_values(const imp_scene *scene, const json_t *known, double *va
 static void tell_values(const imp_scene *scene, const double *values, const arguments *args)
 {
     imp_scene_parameter_info info;
+    const option_value *over = arguments_option(args, "sweep");
     char text[512] = "";
     size_t used = 0;
     for (size_t k = 0; imp_scene_parameter(scene, k, &info) && used < sizeof text; ++k)
-        used += (size_t)snprintf(text + used, sizeof text - used, "%s%s = %.6g", k > 0 ? ", " : "",
-                                 info.name, values[k]);
+        if (over == NULL || strcmp(over->text, info.name) != 0)
+            used += (size_t)snprintf(text + used, sizeof text - used, "%s%s = %.6g",
+                                     used > 0 ? ", " : "", info.name, values[k]);
+    if (used == 0) return;
     remark(args->verb->name, "drawn at %s; --at NAME=VALUE,... shows others",
            message_shown(text).text);
+}
+
+/* Refuses --sweep of what is no parameter. */
+static exit_status check_sweep(const imp_scene *scene, const arguments *args)
+{
+    const option_value *over = arguments_option(args, "sweep");
+    if (over == NULL ||
+        find_parameter(scene, over->text, strlen(over->text)) < imp_scene_parameter_count(scene))
+        return EXIT_ANSWERED;
+    return complain(EXIT_USAGE, args->verb->name,
+                    "--sweep: the scene has no parameter '%.80s'; `impinge info` lists them",
+                    message_shown(over->text).text);
+}
+
+/* Returns the scene at the values, or the one that sweeps a parameter. NULL: it complained. */
+static imp_scene *pose(const imp_scene *scene, const double *values, const arguments *args)
+{
+    const option_value *over = arguments_option(args, "sweep");
+    const size_t count = imp_scene_parameter_count(scene);
+    imp_error error = {0};
+    imp_scene *posed;
+    if (over == NULL)
+        posed = imp_scene_at(scene, values, &error);
+    else
+        posed = imp_scene_sweep(scene, find_parameter(scene, over->text, strlen(over->text)),
+                                values, values[count], &error);
+    if (posed == NULL) complain_of(&error, args->verb->name);
+    return posed;
 }
 
 exit_status at_values_pose(imp_scene **scene, const json_t *known, const arguments *args)
 {
     const option_value *at = arguments_option(args, "at");
     const size_t count = imp_scene_parameter_count(*scene);
-    imp_error error = {0};
     double *values = calloc(count + 1, sizeof *values);
     if (values == NULL) return complain_of_memory(args->verb->name);
     usual_values(*scene, known, values);
-    exit_status status = at != NULL ? read_values(*scene, at->text, values, args) : EXIT_ANSWERED;
+    exit_status status = check_sweep(*scene, args);
+    if (status == EXIT_ANSWERED && at != NULL) status = read_values(*scene, at->text, values, args);
     if (status == EXIT_ANSWERED && count > 0) {
         if (at == NULL || strchr(at->text, '=') == NULL) tell_values(*scene, values, args);
-        imp_scene *posed = imp_scene_at(*scene, values, &error);
-        if (posed == NULL) {
-            status = complain_of(&error, args->verb->name);
-        } else {
-            imp_scene_free(*scene);
-            *scene = posed;
-        }
+        imp_scene *posed = pose(*scene, values, args);
+        if (posed != NULL) imp_scene_free(*scene), *scene = posed;
+        if (posed == NULL) status = EXIT_USAGE;
     }
     free(values);
     return status;

@@ -9,7 +9,8 @@
 #include "tools/cli/arguments.h"
 
 /* Scenes with parameters are drawn at values of them: those of --at NAME=VALUE,..., else those that
- * a result names, else the middle of their ranges. */
+ * a result names, else the middle of their ranges. With --sweep NAME that parameter is in the place
+ * of time, and what follows time stands at --at time=T, or where the scene begins. */
 
 /* Copies the part of --at that is a time or a word, which is empty if there is none. False: there
  * are two, or it is too long. */

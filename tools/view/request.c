@@ -48,6 +48,10 @@ const option request_options[] = {
      .help =
          "show this moment alone: a time, or 'nearest', where bodies touch or come nearest (start, "
          "that, and end); and values of parameters: NAME=VALUE,..."},
+    {.name = "sweep",
+     .kind = OPTION_TEXT,
+     .argument = "NAME",
+     .help = "let this parameter of the scene run over its range, in the place of time"},
     {.name = "tolerance",
      .kind = OPTION_NUMBER,
      .argument = "LENGTH",

@@ -40,14 +40,16 @@ typedef struct story {
     double moments[MOMENTS]; /* ascending */
     char titles[MOMENTS][sizeof((panel *)NULL)->title];
     size_t count;
-    bool close_up; /* a last panel, of the spot from near */
-    size_t spot;   /* the moment that is the spot's; SIZE_MAX: none is */
+    bool close_up;    /* a last panel, of the spot from near */
+    const char *axis; /* what the moments are of */
+    size_t spot;      /* the moment that is the spot's; SIZE_MAX: none is */
 } story;
 
 static void add(story *tale, double t, const char *what, const char *more)
 {
     tale->moments[tale->count] = t;
-    snprintf(tale->titles[tale->count++], sizeof tale->titles[0], "%st = %.7g%s", what, t, more);
+    snprintf(tale->titles[tale->count++], sizeof tale->titles[0], "%s%.24s = %.7g%s", what,
+             tale->axis, t, more);
 }
 
 /* Adds the title of the spot: "a and b" if there are several distances. */
@@ -105,7 +107,7 @@ static void plan_all(story *tale, const subject *what)
 
 static story plan(const subject *what, const view_request *request)
 {
-    story tale = {.spot = SIZE_MAX};
+    story tale = {.spot = SIZE_MAX, .axis = what->axis};
     if (request->at_kind == REQUEST_AT_SPOT && what->spot.is_known)
         add_spot(&tale, what);
     else if (request->at_kind == REQUEST_AT_SPOT)

@@ -95,7 +95,7 @@ imp_code subject_find_nearest(subject *s, imp_error *error)
 
 static void begin(subject *s, const arguments *args)
 {
-    *s = (subject){.scene = NULL};
+    *s = (subject){.axis = "t"};
     allowance_begin(&s->allowance, arguments_number(args, "max-seconds", 0),
                     arguments_count(args, "max-bytes", (uint64_t)1 << 30));
     s->allowance.interrupted = interrupt_came;
@@ -114,6 +114,27 @@ static void set_title(subject *s, const char *file, const char *const pair[2])
         snprintf(s->title, sizeof s->title, "%.250s", base_of(file));
     else
         snprintf(s->title, sizeof s->title, "%.120s and %.120s", pair[0], pair[1]);
+}
+
+/* Stands the scene at values of its parameters, or has one of them in the place of time. */
+static exit_status pose(subject *s, const json_t *known, const arguments *args)
+{
+    const option_value *over = arguments_option(args, "sweep");
+    const size_t used = strlen(s->title);
+    s->axis = over != NULL ? over->text : "t";
+    if (over != NULL)
+        snprintf(s->title + used, sizeof s->title - used, ", t is %.60s",
+                 message_shown(over->text).text);
+    return at_values_pose(&s->scene, known, args);
+}
+
+/* --sweep asks about a scene: a result is one at values. */
+static exit_status check_sweep(const recorded *answer, const arguments *args)
+{
+    if (answer->kind == RECORDED_NOTHING || arguments_option(args, "sweep") == NULL)
+        return EXIT_ANSWERED;
+    return complain(EXIT_USAGE, args->verb->name,
+                    "--sweep draws a scene, not a result; name the scene's file");
 }
 
 /* A scene, or a result of one. */
@@ -138,8 +159,8 @@ static exit_status read_text(subject *s, const arguments *args, const input_text
                   answer.pair);
         if (s->scene == NULL) status = complain_of(&error, args->verb->name);
     }
-    if (status == EXIT_ANSWERED)
-        status = at_values_pose(&s->scene, json_object_get(json, "parameters"), args);
+    if (status == EXIT_ANSWERED) status = check_sweep(&answer, args);
+    if (status == EXIT_ANSWERED) status = pose(s, json_object_get(json, "parameters"), args);
     if (status == EXIT_ANSWERED && !events_read(json, &s->events))
         status = complain_of_memory(args->verb->name);
     if (status == EXIT_ANSWERED && answer.kind != RECORDED_NOTHING) {
@@ -176,8 +197,7 @@ static exit_status read_pair(subject *s, const arguments *args)
     imp_error error = {0};
     s->scene = imp_scene_from_pair(s->registry, args->operands[0], args->operands[1], &error);
     set_title(s, NULL, args->operands);
-    return s->scene != NULL ? at_values_pose(&s->scene, NULL, args)
-                            : complain_of(&error, args->verb->name);
+    return s->scene != NULL ? pose(s, NULL, args) : complain_of(&error, args->verb->name);
 }
 
 exit_status subject_read(subject *s, const arguments *args)

@@ -21,7 +21,9 @@ typedef struct subject {
     stage_spot spot;   /* the contact; else the nearest approach, once it was searched */
     bool has_looked;   /* the nearest approach was searched for, or read */
     event_list events; /* of a simulation */
-    char title[256];   /* the scene's name: its file, or the two surfaces */
+    char title
+        [256]; /* the scene's name: its file, or the two surfaces; and what t is, if not time */
+    const char *axis; /* what moments are of: "t", or the parameter that is swept */
 } subject;
 
 /* Reads the operands and solves, unless they are a result. Complains. Free in any case. */
