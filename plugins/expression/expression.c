@@ -212,3 +212,13 @@ imp_status expression_point(const expression_program *p, const double *variables
     }
     return status;
 }
+
+imp_status expression_points(const expression_program *p, size_t n, const double *variables,
+                             double *x, double *error)
+{
+    imp_status status = IMP_STATUS_OK;
+    for (size_t k = 0; k < n && status == IMP_STATUS_OK; ++k)
+        status = expression_point(p, variables + p->variables * k, x + 3 * k,
+                                  error != NULL ? error + 3 * k : NULL);
+    return status;
+}

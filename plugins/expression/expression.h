@@ -72,4 +72,9 @@ void expression_models(const expression_program *program, const imp_model *varia
 imp_status expression_point(const expression_program *program, const double *variables, double x[3],
                             double *error);
 
+/* Evaluates n points, each of as many variables as the program has, up to the first that fails.
+ * `error` may be NULL. */
+imp_status expression_points(const expression_program *program, size_t n, const double *variables,
+                             double *x, double *error);
+
 #endif

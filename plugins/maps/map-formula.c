@@ -79,12 +79,7 @@ IMP_MAP_FORMULA(map_models)
 /* Points are evaluated directly, which is faster than with constant models. */
 static imp_status map_eval(const void *self, size_t n, const double *p, double *x, double *error)
 {
-    const map_instance *s = self;
-    imp_status status = IMP_STATUS_OK;
-    for (size_t k = 0; k < n && status == IMP_STATUS_OK; ++k)
-        status = expression_point(s->program, p + 4 * k, x + 3 * k,
-                                  error != NULL ? error + 3 * k : NULL);
-    return status;
+    return expression_points(((const map_instance *)self)->program, n, p, x, error);
 }
 
 static imp_status map_write_formula(const void *self, const imp_text_sink *to)

@@ -94,12 +94,7 @@ IMP_SURFACE_FORMULA(formula_models)
 static imp_status formula_eval(const void *self, size_t n, const double *p, double *x,
                                double *error)
 {
-    const formula_instance *s = self;
-    imp_status status = IMP_STATUS_OK;
-    for (size_t k = 0; k < n && status == IMP_STATUS_OK; ++k)
-        status = expression_point(s->program, p + 3 * k, x + 3 * k,
-                                  error != NULL ? error + 3 * k : NULL);
-    return status;
+    return expression_points(((const formula_instance *)self)->program, n, p, x, error);
 }
 
 static imp_status formula_write_formula(const void *self, const imp_text_sink *to)
