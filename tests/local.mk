@@ -60,6 +60,7 @@ check_suites = \
     tests/unit/test_mechanism \
     tests/unit/test_mesh \
     tests/unit/test_mesh_files \
+    tests/unit/test_gltf_files \
     tests/unit/test_mesh_text \
     tests/unit/test_metamorphic \
     tests/unit/test_misuse \
@@ -73,6 +74,7 @@ check_suites = \
     tests/unit/test_pending \
     tests/unit/test_piece_sides \
     tests/unit/test_pieces \
+    tests/unit/test_piece_answers \
     tests/unit/test_pipeline \
     tests/unit/test_plugin_parameters \
     tests/unit/test_posed_pairs \
@@ -130,6 +132,8 @@ mpfi_suites = \
     tests/unit/test_poses \
     tests/unit/test_set_values \
     tests/unit/test_shapes \
+    tests/unit/test_nurbs \
+    tests/unit/test_shape_contacts \
     tests/unit/test_loop \
     tests/unit/test_subdivision \
     tests/unit/test_tightness
@@ -186,6 +190,8 @@ tests_unit_test_poses_SOURCES = tests/unit/test_poses.c \
     tests/support/oracle_number.c tests/support/judge.c tests/support/judge.h
 tests_unit_test_maps_SOURCES = tests/unit/test_maps.c tests/support/map_images.h $(type_oracle)
 tests_unit_test_shapes_SOURCES = tests/unit/test_shapes.c $(type_oracle)
+tests_unit_test_nurbs_SOURCES = tests/unit/test_nurbs.c $(type_oracle)
+tests_unit_test_shape_contacts_SOURCES = tests/unit/test_shape_contacts.c $(type_oracle)
 tests_unit_test_loop_SOURCES = tests/unit/test_loop.c $(type_oracle)
 tests_unit_test_subdivision_SOURCES = tests/unit/test_subdivision.c $(type_oracle)
 tests_unit_test_tightness_SOURCES = tests/unit/test_tightness.c $(type_oracle)
@@ -493,6 +499,7 @@ tests_unit_test_expression_LDFLAGS = $(alloc_failure_ldflags)
 tests_unit_test_impacts_LDADD = tools/libtools.a $(LDADD)
 tests_unit_test_lanes_LDADD = plugins/libpatch.la $(LDADD)
 tests_unit_test_mesh_files_LDADD = plugins/libmesh.la $(LDADD)
+tests_unit_test_gltf_files_LDADD = plugins/libmesh.la $(LDADD)
 tests_unit_test_mesh_text_LDADD = plugins/libmesh.la $(LDADD)
 tests_unit_test_expression_LDADD = plugins/libexpression.la $(LDADD)
 tests_unit_test_expression_faults_LDADD = plugins/libexpression.la $(LDADD)
@@ -526,12 +533,15 @@ noinst_HEADERS += \
     tests/support/made_certificate.h \
     tests/support/meeting.h \
     tests/support/meeting_nodes.h \
+    tests/support/mesh_bytes.h \
     tests/support/net_distance.h \
     tests/support/oracle.h \
     tests/support/query_helpers.h \
+    tests/support/rough_sheets.h \
     tests/support/sandbox.h \
     tests/support/scene_text.h \
     tests/support/scene_variants.h \
+    tests/support/shape_points.h \
     tests/support/slip_helpers.h \
     tests/support/solid_helpers.h \
     tests/support/sphere_scenes.h \
