@@ -51,12 +51,6 @@ leaves() {
     exposes buffers liar_beyond 'eval writes beyond its outputs'
 }
 
-# shows CHECK FILE TYPE TEXT [ARG]...: that check fails with that text.
-shows() {
-    blamed "$2" "$3" --only "$1" "${@:5}"
-    [[ $output == *"FAIL  $1 "*"$4"* ]]
-}
-
 @test "create that reads past an argument, or keeps a pointer to one, is exposed" {
     ! has_sanitizers || skip 'AddressSanitizer finds it first'
     shows arguments manners list_read_too_far \
@@ -163,14 +157,8 @@ shows() {
 }
 
 # --- Planted mistakes ---------------------------------------------------------------------------
-tube='(radius+wave*sin(3*v+t))*cos(u); (radius+wave*sin(3*v+t))*sin(u); 2*v+path0+path1*t+path2*t^2'
 
-# missed FILE [ARG]...: the types of mistakes_FILE.so in which nothing is found.
-missed() {
-    "$IMPINGE" check "$liars/mistakes_$1.so" --json "${@:2}" >report || [ $? -eq 6 ]
-    jq -r '.types[].name' report >>seen
-    jq -r '.types[] | select(all(.checks[]; .verdict == "pass" or .verdict == "skip")) | .name' report
-}
+tube='(radius+wave*sin(3*v+t))*cos(u); (radius+wave*sin(3*v+t))*sin(u); 2*v+path0+path1*t+path2*t^2'
 
 @test "of 57 kinds of mistakes that authors make, 54 at least are found, and no truth is accused" {
     local name unproved

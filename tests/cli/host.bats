@@ -241,7 +241,7 @@ distrusted() {
 # A program that says whether it is privileged, and which directories it would load from.
 build_privileged() {
     cat >privileged.c <<'END'
-#include "core/plugin/search_path.h"
+#include "core/common/search_path.h"
 #include <stdio.h>
 #include <sys/auxv.h>
 int main(void)
@@ -255,7 +255,7 @@ int main(void)
 END
     # shellcheck disable=SC2086,SC2154 # CC may hold flags; top_srcdir comes from the environment
     $CC -std=gnu11 -I"$top_srcdir" -I"$top_srcdir/core" -I"$top_srcdir/sdk" -I"$top_builddir" -DHAVE_CONFIG_H \
-        -DPLUGINDIR='"/installed"' -o privileged privileged.c "$top_srcdir"/core/plugin/search_path.c \
+        -DPLUGINDIR='"/installed"' -o privileged privileged.c "$top_srcdir"/core/common/search_path.c \
         ${CORE_ARRAY-}
 }
 

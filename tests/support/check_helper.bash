@@ -21,3 +21,16 @@ blamed() {
     run -6 "$IMPINGE" check "$2" --plugin-path . "${@:3}"
     echo "$output"
 }
+
+# shows CHECK FILE TYPE TEXT [ARG]...: that check fails with that text.
+shows() {
+    blamed "$2" "$3" --only "$1" "${@:5}"
+    [[ $output == *"FAIL  $1 "*"$4"* ]]
+}
+
+# missed FILE [ARG]...: the types of mistakes_FILE.so in which nothing is found.
+missed() {
+    "$IMPINGE" check "$liars/mistakes_$1.so" --json "${@:2}" >report || [ $? -eq 6 ]
+    jq -r '.types[].name' report >>seen
+    jq -r '.types[] | select(all(.checks[]; .verdict == "pass" or .verdict == "skip")) | .name' report
+}
