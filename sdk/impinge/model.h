@@ -60,6 +60,8 @@
  * Kinks are allowed: rates bound difference quotients there. Jumps are not: imp_atan2 has no
  * bounded rates on its cut. */
 
+#include <impinge/model_basics.h>
+
 #include <impinge/model_angles.h>
 #include <impinge/model_arithmetic.h>
 #include <impinge/model_functions.h>
