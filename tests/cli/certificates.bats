@@ -128,7 +128,7 @@ sealed() {
     run -0 verify teapot.proof --tighten short.proof
     [[ $output == *"tightened: "*" leaves to "*" tests to "*" bytes to $(stat -c %s short.proof)" ]]
     read -r _ leaves _ _ fewer_leaves tests _ _ fewer_tests _ <<<"${lines[-1]//,/}"
-    [ $((2 * fewer_leaves)) -lt "$leaves" ]
+    [ $((3 * fewer_leaves)) -lt $((2 * leaves)) ]
     [ "$fewer_tests" -lt "$tests" ]
     [ "$(stat -c %s short.proof)" -lt "$(stat -c %s teapot.proof)" ]
     run -0 verify short.proof --threads 2
