@@ -28,12 +28,23 @@ static vec3 any_across(vec3 axis)
     return vec3_scale(across, 1 / vec3_norm(across));
 }
 
+/* The part of x that is across the axis, a unit vector up to rounding. What one subtraction leaves
+ * along the axis is rounding of |x|, the second one's that of the part itself. */
+static vec3 part_across(vec3 axis, vec3 x)
+{
+    vec3 across = x;
+    for (int k = 0; k < 2; ++k) across = vec3_sub(across, vec3_scale(axis, vec3_dot(across, axis)));
+    return across;
+}
+
 /* Lemma. With z = sum of weights w_k >= 0 of corners z_k, k.(z - c) is between the least and the
  * greatest of the corners', and the distance q(z) from the line is at most the greatest, being
  * convex; for each e across the line, |e| = 1 but for rounding, q(z) >= e.(z - c) >= the least of
  * the corners'. One e is the piece's normal, for which that is sharp where the piece is flat along
  * the line; the other points to its middle. Rounding: as of planes (piece_planes.c), 16 of e and 8
- * of the products, in units of u |z - c|. */
+ * of the products, in units of u |z - c|. Of e (part_across): one subtraction leaves at most 16 u
+ * |x| along k, which is 2^-29 of a part longer than 2^-20 |x|; the second one leaves 8 u of the
+ * part; its length has 3 roundings. */
 enum { RING_ROUNDING = 64 };
 _Static_assert(1 + 8 + 4 + 8 + 16 + 8 <= RING_ROUNDING, "rounding of a ring");
 
@@ -53,7 +64,7 @@ static ring ring_of(const line_frame *f, const vec3 z[4])
     }
     const vec3 ways[3] = {normal, vec3_scale(normal, -1), middle};
     for (int j = 0; j < 3; ++j) {
-        const vec3 across = vec3_sub(ways[j], vec3_scale(f->axis, vec3_dot(ways[j], f->axis)));
+        const vec3 across = part_across(f->axis, ways[j]);
         const double size = vec3_norm(across);
         double least = INFINITY;
         if (!(size > 0x1p-20 * vec3_norm(ways[j]))) continue;

@@ -112,13 +112,12 @@ typedef struct trial {
     char text[2][TEXT];
 } trial;
 
-static void trial_begin(trial *y, uint64_t *random)
+/* Makes the scene of the texts, and its trees between two times. */
+static void trial_open(trial *y, double t0, double t1)
 {
     imp_error error;
-    draw_scene(random, y->text[0], y->text[1]);
     y->scene = imp_scene_from_pair(registry, y->text[0], y->text[1], &error);
     ck_assert_msg(y->scene != NULL, "%s | %s: %s", y->text[0], y->text[1], error.text);
-    const double t0 = random_fraction(random), t1 = t0 + random_power(random, -8, 0);
     y->slips = (distance_slips){.slip = {0, 0}};
     y->of = (distance_sides){.slips = &y->slips, .takes_orbits = true};
     for (int k = 0; k < 2; ++k) {
@@ -129,6 +128,13 @@ static void trial_begin(trial *y, uint64_t *random)
         y->of.node[k] = y->of.root[k] = tree_root(y->trees[k]);
     }
     y->times = pair_times(y->of.root[0], y->of.root[1]);
+}
+
+static void trial_begin(trial *y, uint64_t *random)
+{
+    draw_scene(random, y->text[0], y->text[1]);
+    const double t0 = random_fraction(random), t1 = t0 + random_power(random, -8, 0);
+    trial_open(y, t0, t1);
 }
 
 static void trial_end(trial *y)
@@ -378,11 +384,63 @@ START_TEST(points_are_where_the_course_says)
 }
 END_TEST
 
+/* --- Far along a line ------------------------------------------------------------------------- */
+
+enum { FAR_SCENES = 40, STAR_RAYS = 7 };
+
+/* A star of triangles in a plane across an oblique line through 0, far along it, turns about the
+ * line, and a ball is inside. What is along that line must not be mistaken for what is across. */
+static void draw_far_star(uint64_t *random, char a[TEXT], char b[TEXT])
+{
+    vec3 axis = {{part(random), part(random), 1}};
+    axis = vec3_scale(axis, 1 / vec3_norm(axis));
+    const double far = random_power(random, 12, 17), radius = random_between(random, 0.2, 1);
+    vec3 side = vec3_cross(axis, (vec3){{1, 0, 0}});
+    side = vec3_scale(side, 1 / vec3_norm(side));
+    const vec3 other = vec3_cross(axis, side), middle = vec3_scale(axis, far);
+    char *at = a + sprintf(a, "mesh points=[");
+    for (int k = 0; k < 2 * STAR_RAYS; ++k) {
+        const double angle = 3.14159265358979 * k / STAR_RAYS, from = radius * (k % 2 == 0 ? 1 : 2);
+        const vec3 across =
+            vec3_add(vec3_scale(side, from * cos(angle)), vec3_scale(other, from * sin(angle)));
+        const vec3 x = vec3_add(middle, across);
+        at += sprintf(at, "%s[%.17g,%.17g,%.17g]", k > 0 ? "," : "", x.x[0], x.x[1], x.x[2]);
+    }
+    at += sprintf(at, "] faces=[");
+    for (int j = 0; j < STAR_RAYS; ++j)
+        at += sprintf(at, "%s[%d,%d,%d]", j > 0 ? "," : "", 2 * j + 1, 2 * j,
+                      (2 * j + 2) % (2 * STAR_RAYS));
+    sprintf(at, "] ! rotate axis=%.17g,%.17g,%.17g angle=0,2", axis.x[0], axis.x[1], axis.x[2]);
+    sprintf(b, "sphere radius=%.17g center=%.17g,%.17g,%.17g", 0.4 * radius, middle.x[0],
+            middle.x[1], middle.x[2]);
+}
+
+START_TEST(what_is_across_a_line_is_told_far_along_it)
+{
+    uint64_t random = suite_seed();
+    int bounded = 0;
+    for (int k = 0; k < FAR_SCENES; ++k) {
+        trial y;
+        imp_error error;
+        draw_far_star(&random, y.text[0], y.text[1]);
+        trial_open(&y, 0, 1);
+        distance_outcome seen = distance_outcome_none(&y.times);
+        ck_assert_int_eq(piece_sides_cut(&y.of, 1, 1e9, &seen, &error), IMP_SUCCESS);
+        const double apart = nearly_apart(&y, 0);
+        bounded += seen.lower > 0.5 * apart;
+        ck_assert_msg(seen.lower <= apart, "%s | %s: %.17g, %.17g claimed", y.text[0], y.text[1],
+                      apart, seen.lower);
+        trial_end(&y);
+    }
+    ck_assert_int_gt(bounded, 0);
+}
+END_TEST
+
 int main(void)
 {
-    const TTest *const tests[] = {no_points_are_nearer_than_is_claimed_of_all_pieces,
-                                  claims_that_are_too_large_are_found,
-                                  points_are_where_the_course_says};
+    const TTest *const tests[] = {
+        no_points_are_nearer_than_is_claimed_of_all_pieces, claims_that_are_too_large_are_found,
+        points_are_where_the_course_says, what_is_across_a_line_is_told_far_along_it};
     return suite_main_with("piece sides", tests, sizeof tests / sizeof tests[0], open_registry,
                            close_registry);
 }
