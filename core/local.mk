@@ -49,7 +49,8 @@ core_surface = \
     core/surface/surface_distance.c \
     core/surface/surface_include.c core/surface/surface_internal.h \
     core/surface/surface_motion.c core/surface/surface_net.c core/surface/surface_pose.c \
-    core/surface/course.h core/surface/surface_course.c core/surface/surface_orbit.c core/surface/surface_pair_slip.c \
+    core/surface/course.h core/surface/course_line.c core/surface/course_line.h \
+    core/surface/surface_course.c core/surface/surface_orbit.c core/surface/surface_pair_slip.c \
     core/surface/surface_rate.c core/surface/surface_slip.c \
     core/surface/time_model.h core/surface/surface_shift.c core/surface/surface_shift.h \
     core/surface/surface_spread.c core/surface/surface_spread.h \

@@ -9,6 +9,7 @@
 
 #include "core/base/rounding.h"
 #include "core/base/status.h"
+#include "core/surface/course_line.h"
 
 /* --- Corners of pieces ------------------------------------------------------------------------ */
 
@@ -166,22 +167,36 @@ static imp_code find_bare(const piece_search *q, int side, imp_model bare[3], bo
     return code;
 }
 
+/* A length not below any of the points', and not many times as long. */
+static double rough_size(const imp_model x[3])
+{
+    double sum = 0;
+    for (int i = 0; i < 3; ++i) sum += fabs(x[i].lo) + fabs(x[i].hi);
+    return sum;
+}
+
 static imp_code find_courses(piece_search *q, imp_error *error)
 {
     const imp_region times =
         region_make((double[3]){-1, -1, q->times.lo}, (double[3]){1, 1, q->times.hi});
     const double moment = 0.5 * q->times.lo + 0.5 * q->times.hi;
+    const surface *const s[2] = {q->of->root[0]->surface, q->of->root[1]->surface};
+    imp_model bare[2][3];
+    bool known[2];
+    double reach = 0;
     for (int side = 0; side < 2; ++side) {
-        const node *b = q->of->root[!side];
-        imp_model bare[3];
-        bool known;
-        q->course[side].is_known = false;
-        const imp_code code = find_bare(q, !side, bare, &known, error);
+        const imp_code code = find_bare(q, side, bare[side], &known[side], error);
         if (code != IMP_SUCCESS) return code;
-        if (!known) continue;
-        const imp_status status = surface_course_of(q->of->root[side]->surface, b->surface, bare,
-                                                    &times, moment, &q->course[side]);
-        if (status != IMP_STATUS_OK) return distance_fault(b->surface, status, error);
+        const double size = known[side] ? rough_size(bare[side]) : 0;
+        if (size > reach) reach = size;
+        q->course[side].is_known = false;
+    }
+    if (!course_is_likely(s[0], s[1], &times, reach)) return IMP_SUCCESS;
+    for (int side = 0; side < 2; ++side) {
+        if (!known[!side]) continue;
+        const imp_status status =
+            surface_course_of(s[side], s[!side], bare[!side], &times, moment, &q->course[side]);
+        if (status != IMP_STATUS_OK) return distance_fault(s[!side], status, error);
     }
     return IMP_SUCCESS;
 }
@@ -203,6 +218,7 @@ imp_code piece_sides_cut(const distance_sides *of, unsigned search, double gamma
         if (surface_piece_count(s[side]) > most) most = surface_piece_count(s[side]);
     if (most == 1 || most > PIECES_MOST || surface_common_maps(s[0], s[1]) > 0) return IMP_SUCCESS;
     imp_code code = find_courses(&q, error);
+    if (!q.course[0].is_known && !q.course[1].is_known) return code;
     if (code == IMP_SUCCESS && most > PIECES_FIRST) {
         distance_outcome some = *seen;
         code = cut_with(&q, PIECES_FIRST, sides, &some, error);

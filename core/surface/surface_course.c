@@ -8,6 +8,7 @@
 #include <string.h>
 
 #include "core/base/rounding.h"
+#include "core/surface/course_line.h"
 #include "core/surface/slip.h"
 
 /* Maps are exact rotations and shifts here, so that the inverse of a turn is its transpose. */
@@ -94,45 +95,22 @@ static void take_numbers(const relative *r, const imp_model bare[3], bool has_sh
 
 /* --- The line about which b turns ------------------------------------------------------------- */
 
-/* Estimates the line about which the motion from one moment to another turns: X = M1 M0^-1 takes x
- * to R x + d. Returns the sine of its angle, by which good estimates are told. */
-static double line_between(const relative *m0, const relative *m1, double center[3], double axis[3])
+/* The middles of its models. */
+static rigid_numbers numbers_of(const relative *r)
 {
-    double turn[3][3], d[3], across[3], along = 0, size = 0, trace = 0;
+    rigid_numbers m;
     for (int i = 0; i < 3; ++i) {
-        d[i] = m1->shift[i].a;
-        for (int j = 0; j < 3; ++j) {
-            turn[i][j] = 0;
-            for (int k = 0; k < 3; ++k) turn[i][j] += m1->turn[i][k].a * m0->turn[j][k].a;
-            d[i] -= turn[i][j] * m0->shift[j].a;
-        }
-        trace += turn[i][i];
+        m.shift[i] = r->shift[i].a;
+        for (int j = 0; j < 3; ++j) m.turn[i][j] = r->turn[i][j].a;
     }
-    for (int i = 0; i < 3; ++i) {
-        const int j = (i + 1) % 3, k = (i + 2) % 3;
-        axis[i] = 0.5 * (turn[k][j] - turn[j][k]);
-        size += axis[i] * axis[i];
-    }
-    const double sine = sqrt(size);
-    if (!(sine > 0)) return 0;
-    for (int i = 0; i < 3; ++i) axis[i] /= sine;
-    for (int i = 0; i < 3; ++i) along += axis[i] * d[i];
-    for (int i = 0; i < 3; ++i) across[i] = d[i] - along * axis[i];
-    const double cotangent = (1 + 0.5 * (trace - 1)) / sine;
-    for (int i = 0; i < 3; ++i) {
-        const int j = (i + 1) % 3, k = (i + 2) % 3;
-        center[i] = 0.5 * (across[i] + cotangent * (axis[j] * across[k] - axis[k] * across[j]));
-    }
-    return sine;
+    return m;
 }
-
-/* Sines below this give a line that is mostly rounding. */
-#define SINE_LEAST 0x1p-6
 
 static imp_status find_line(const surface *a, const surface *b, const imp_region *times,
                             double moment, const relative *m0, imp_symmetry *line, bool *found)
 {
     static const double parts[] = {0.31, -0.27, 0.11, 0.03, 0.007};
+    const rigid_numbers then = numbers_of(m0);
     double best = SINE_LEAST;
     for (int k = 0; k < 5; ++k) {
         const double t = moment + parts[k] * (times->hi[2] - times->lo[2]);
@@ -143,7 +121,8 @@ static imp_status find_line(const surface *a, const surface *b, const imp_region
         if (!(times->lo[2] <= t && t <= times->hi[2])) continue;
         const imp_status status = relate_at(a, b, &at, &m1, &turns);
         if (status != IMP_STATUS_OK) return status;
-        const double sine = line_between(m0, &m1, center, axis);
+        const rigid_numbers now = numbers_of(&m1);
+        const double sine = course_line_between(&then, &now, center, axis);
         if (!(sine > best)) continue;
         best = sine;
         memcpy(line->center, center, sizeof center);

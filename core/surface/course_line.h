@@ -1,0 +1,29 @@
+/* SPDX-FileCopyrightText: The Impinge authors
+ * SPDX-License-Identifier: Apache-2.0 */
+#ifndef CORE_SURFACE_COURSE_LINE_H
+#define CORE_SURFACE_COURSE_LINE_H
+
+#include "core/surface/surface.h"
+
+/* Estimates of how one surface moves as another sees it, for surface_course.c, which proves it.
+ * Nothing here is a bound. */
+
+/* x = turn y + shift. */
+typedef struct rigid_numbers {
+    double turn[3][3], shift[3];
+} rigid_numbers;
+
+/* Sines below this give a line that is mostly rounding. */
+#define SINE_LEAST 0x1p-6
+
+/* Estimates the line about which the motion from m0 to m1 turns. Returns the sine of its angle, by
+ * which good estimates are told; 0: there is none, and the line is not set. */
+double course_line_between(const rigid_numbers *m0, const rigid_numbers *m1, double center[3],
+                           double axis[3]);
+
+/* Whether poses at three of the times look like a shift, or like turns about one line: few motions
+ * do, and to bound the course costs a hundred times as much. What b sees of a is of the same kind.
+ * `reach` is about the size of the larger. */
+bool course_is_likely(const surface *a, const surface *b, const imp_region *times, double reach);
+
+#endif
