@@ -18,8 +18,9 @@
  * where shells share patches and no volume, the sum winds around each point inside of the union.
  * Whether they share none is not known, but seen where it matters: a patch that is left out and has
  * the outside at one of its sides, as the common face of two boxes inside each other has, is not
- * inside of the sum, and the part is not read so. (c_p is known but for a common factor, which rule
- * 3 takes away.)
+ * inside of the sum, and the part is not read so. Nor is it if a third shell covers that face:
+ * patches at its edges are then neither of the shell around it nor inside of it. (c_p is known but
+ * for a common factor, which rule 3 takes away.)
  *
  * Where one of each patch is closed (rule 1), further copies of patches are further copies of
  * shells of the union, or of nothing: the union is the same. */
@@ -29,6 +30,7 @@ typedef struct reading {
     double slack;
     const limit_watch *watch;
     imp_error *error;
+    edges of;           /* of all */
     size_t *one;        /* by patch: the one that stands for it (copies.h) */
     size_t *times;      /* by patch that stands for others: how many they are, it included */
     size_t *part;       /* by patch: if it is the root of a part, the first patch of that */
@@ -54,14 +56,13 @@ static void join_loose_edges(const edges *e, const size_t *partner, union_find *
     for (size_t i = 1; i < e->patches->count && is_loose; ++i) union_find_join(sets, 0, i, 1);
 }
 
-static void list_parts(reading *r, const edges *e, union_find *sets)
+static void list_parts(reading *r, union_find *sets)
 {
-    const size_t count = e->patches->count;
-    for (size_t i = 0; i < count; ++i) {
+    for (size_t i = 0; i < r->all->count; ++i) {
         r->times[i] = 0, r->part[i] = SIZE_MAX;
         r->is_kept[i] = true, r->is_repeated[i] = false;
     }
-    for (size_t i = count; i-- > 0;) {
+    for (size_t i = r->all->count; i-- > 0;) {
         size_t *first = &r->part[union_find_root(sets, i, NULL)];
         r->next[i] = *first;
         *first = i;
@@ -71,19 +72,18 @@ static void list_parts(reading *r, const edges *e, union_find *sets)
 
 static imp_code find_parts(reading *r)
 {
-    edges e;
+    edges *const e = &r->of;
     union_find sets;
     const bool has_sets = union_find_make(&sets, r->all->count);
     size_t *partner = malloc((4 * r->all->count + 1) * sizeof *partner);
-    imp_code code = edges_read(&e, r->all, r->slack, r->error);
-    if (code == IMP_SUCCESS && (!has_sets || partner == NULL || !edges_match(&e, partner, &sets) ||
-                                !copies_find(&e, r->one)))
+    imp_code code = edges_read(e, r->all, r->slack, r->error);
+    if (code == IMP_SUCCESS && (!has_sets || partner == NULL || !edges_match(e, partner, &sets) ||
+                                !copies_find(e, r->one)))
         code = error_set_memory(r->error);
     if (code == IMP_SUCCESS) {
-        join_loose_edges(&e, partner, &sets);
-        list_parts(r, &e, &sets);
+        join_loose_edges(e, partner, &sets);
+        list_parts(r, &sets);
     }
-    edges_free(&e);
     free(partner);
     if (has_sets) union_find_clear(&sets);
     return code;
@@ -121,9 +121,9 @@ static size_t factor_of(const reading *r, size_t first)
 /* Returns whether each patch of a part is there more often than the body as a whole. */
 static bool is_repeated(const reading *r, size_t first)
 {
-    for (size_t i = first; i != SIZE_MAX; i = r->next[i])
-        if (r->times[r->one[i]] <= r->factor) return false;
-    return true;
+    size_t i = first;
+    while (i != SIZE_MAX && r->times[r->one[i]] > r->factor) i = r->next[i];
+    return i == SIZE_MAX;
 }
 
 /* Finds the shells of a list of patches, and whether they are closed. */
@@ -145,44 +145,89 @@ static imp_code find_listed(reading *r, size_t count, shells *found, patches *li
     return code;
 }
 
-/* Sets *inside to whether exactly one of the shells winds around the middle of a patch. */
-static imp_code is_within(reading *r, const shells *found, const patches *listed, const patch *p,
-                          bool *inside)
+/* The shells of what is kept of a part. */
+typedef struct cover {
+    shells found;
+    patches listed;
+    imp_error *error;
+} cover;
+
+static bool share_an_edge(const edges *e, size_t p, size_t q)
+{
+    bool found = false;
+    for (size_t k = 0; k < 16 && !found; ++k) {
+        const size_t i = 4 * p + k / 4, j = 4 * q + k % 4;
+        found = !edge_is_point(e, i) && !edge_is_point(e, j) && edge_compare(e, i, j) != 0;
+    }
+    return found;
+}
+
+/* How often a shell winds around the middle of a patch. */
+static imp_code wind_middle(const cover *c, size_t shell, const patch *p, winding_number *wound)
 {
     const double uv[1][2] = {
         {patch_between(p->lo[0], p->hi[0], 1, 2), patch_between(p->lo[1], p->hi[1], 1, 2)}};
     double off[1];
     vec3 x;
-    int around = 0;
+    const imp_code code = patch_eval(p, c->listed.t, 1, uv, &x, off, c->error);
+    return code == IMP_SUCCESS
+               ? shell_wind(&c->found, &c->listed, shell, x, off[0], wound, c->error)
+               : code;
+}
+
+static bool is_known(const winding_number *wound) { return !wound->is_near && wound->is_whole; }
+
+/* Sets *around to the only shell that winds around the middle of a patch; SIZE_MAX: it is not known
+ * that there is just one. */
+static imp_code find_around(const cover *c, const patch *p, size_t *around)
+{
     bool known = true;
-    imp_code code = patch_eval(p, listed->t, 1, uv, &x, off, r->error);
-    for (size_t k = 0; k < found->count && known && code == IMP_SUCCESS; ++k) {
+    *around = SIZE_MAX;
+    for (size_t k = 0; k < c->found.count && known; ++k) {
         winding_number wound;
-        code = shell_wind(found, listed, k, x, off[0], &wound, r->error);
+        const imp_code code = wind_middle(c, k, p, &wound);
         if (code != IMP_SUCCESS) return code;
-        known = !wound.is_near && wound.is_whole;
-        around += wound.times != 0;
+        known = is_known(&wound) && (wound.times == 0 || *around == SIZE_MAX);
+        if (wound.times != 0) *around = k;
     }
-    *inside = known && around == 1;
+    if (!known) *around = SIZE_MAX;
+    return IMP_SUCCESS;
+}
+
+/* Sets *fits to whether one shell winds around the middle of patch i, and what is kept and shares
+ * an edge with the patch is of that shell or inside of it. */
+static imp_code is_within(const reading *r, const cover *c, size_t first, size_t factor, size_t i,
+                          bool *fits)
+{
+    size_t around, k = 0;
+    imp_code code = find_around(c, &r->all->patch[i], &around);
+    *fits = around != SIZE_MAX;
+    for (size_t j = first; j != SIZE_MAX && *fits && code == IMP_SUCCESS; j = r->next[j]) {
+        winding_number wound;
+        if (!keeps(r, RULE_ODD, j, factor) || c->found.facing[k++].shell == around ||
+            !share_an_edge(&r->of, i, j))
+            continue;
+        code = wind_middle(c, around, &r->all->patch[j], &wound);
+        *fits = code == IMP_SUCCESS && is_known(&wound) && wound.times != 0;
+    }
     return code;
 }
 
 /* Sets *fits to whether what the rule keeps of a part is closed, and all patches that it leaves out
- * but for copies of others lie inside. */
+ * but for copies of others lie inside (is_within). */
 static imp_code try_rule(reading *r, size_t first, rule which, size_t factor, bool *fits)
 {
     size_t count = 0;
-    shells found;
-    patches listed;
+    cover c = {.error = r->error};
     for (size_t i = first; i != SIZE_MAX; i = r->next[i])
         if (keeps(r, which, i, factor)) r->list[count++] = r->all->patch[i];
-    imp_code code = find_listed(r, count, &found, &listed, fits);
+    imp_code code = find_listed(r, count, &c.found, &c.listed, fits);
     if (which != RULE_ODD) return code;
     for (size_t i = first; i != SIZE_MAX && *fits && code == IMP_SUCCESS; i = r->next[i]) {
         if (r->one[i] != i || keeps(r, which, i, factor)) continue;
         r->is_stopped = r->is_stopped || !limit_watch_goes_on(r->watch);
         if (r->is_stopped) return code;
-        code = is_within(r, &found, &listed, &r->all->patch[i], fits);
+        code = is_within(r, &c, first, factor, i, fits);
     }
     return code;
 }
@@ -250,8 +295,8 @@ static imp_code read_parts(reading *r, shells *s, imp_closure *closure)
 size_t solid_shared_bytes(size_t count)
 {
     const reading *r = NULL;
-    return count *
-           (4 * sizeof *r->one + 2 * sizeof *r->is_kept + sizeof *r->list + sizeof *r->facing);
+    return edges_bytes(count) + count * (4 * sizeof *r->one + 2 * sizeof *r->is_kept +
+                                         sizeof *r->list + sizeof *r->facing);
 }
 
 imp_code solid_shells_shared(shells *s, const patches *p, double slack, const limit_watch *watch,
@@ -270,6 +315,7 @@ imp_code solid_shells_shared(shells *s, const patches *p, double slack, const li
         r.times = r.one + room, r.part = r.times + room, r.next = r.part + room;
         code = read_parts(&r, s, closure);
     }
+    edges_free(&r.of);
     free(r.one);
     free(r.is_kept);
     free(r.list);

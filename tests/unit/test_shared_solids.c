@@ -162,6 +162,36 @@ START_TEST(a_box_flush_in_the_corner_of_another_is_not_guessed)
 }
 END_TEST
 
+/* The faces across y and z of a box that ends at x = 0 and has width X, and its far face. */
+#define PLANE(ORIGIN, U, V)                                                                        \
+    "{\"type\": \"plane\", \"origin\": [" ORIGIN "], \"edge_u\": [" U "], \"edge_v\": [" V "]}"
+#define BESIDE(X)                                                                                  \
+    PLANE(X ",0,0", "0,2,0", "0,0,2")                                                              \
+    ", " PLANE("0,0,0", X ",0,0", "0,0,2") ", " PLANE("0,2,0", X ",0,0", "0,0,2") ", " PLANE(      \
+        "0,0,0", X ",0,0", "0,2,0") ", " PLANE("0,0,2", X ",0,0", "0,2,0")
+#define FACE PLANE("0,0,0", "0,2,0", "0,0,2")
+#define END(Z)                                                                                     \
+    "{\"type\": \"mesh\", \"points\": [[0,0," Z "], [-1,1.5," Z "], [0.3,1.5," Z                   \
+    "]], \"faces\": [[0,1,2]]}"
+
+/* Two boxes on one side of the face that they share, the middle of which a wedge covers that stands
+ * on one of its edges: what only the boxes hold is not outside. */
+START_TEST(a_face_of_boxes_inside_each_other_is_not_left_out_where_a_third_body_covers_it)
+{
+    static const char bodies[] = FACE ", " BESIDE("2") ", " FACE ", " BESIDE("1") ", " PLANE(
+        "0,0,0", "-1,1.5,0",
+        "0,0,2") ", " PLANE("-1,1.5,0", "1.3,0,0",
+                            "0,0,2") ", " PLANE("0.3,1.5,0", "-0.3,-1.5,0",
+                                                "0,0,2") ", " END("0") ", " END("2");
+    static const double in_both[2][3] = {{0.5, 0.3, 1}, {0.7, 1.8, 1.3}};
+    for (int k = 0; k < 2; ++k) {
+        bool inside;
+        const scene_words w = with_ball(bodies, in_both[k], 0.01);
+        ck_assert(!is_answered(w.text, &inside) || inside);
+    }
+}
+END_TEST
+
 /* Random stacks, with faces that are there again: each answer is true. */
 START_TEST(no_stack_is_told_wrong)
 {
@@ -264,17 +294,19 @@ END_TEST
 
 int main(void)
 {
-    const TTest *const tests[] = {boxes_that_stand_face_to_face_are_their_union,
-                                  bodies_that_are_there_more_than_once_are_neither_empty_nor_filled,
-                                  one_box_of_two_may_be_there_again,
-                                  faces_that_are_there_again_change_nothing,
-                                  a_tank_of_faces_with_two_sides_stays_hollow,
-                                  a_box_flush_in_the_corner_of_another_is_not_guessed,
-                                  no_stack_is_told_wrong,
-                                  curved_bodies_that_are_there_again_change_nothing,
-                                  cylinders_may_stand_on_each_other,
-                                  patches_with_the_same_edges_are_no_copies,
-                                  closure_leaves_out_copies_and_faces_between};
+    const TTest *const tests[] = {
+        boxes_that_stand_face_to_face_are_their_union,
+        bodies_that_are_there_more_than_once_are_neither_empty_nor_filled,
+        one_box_of_two_may_be_there_again,
+        faces_that_are_there_again_change_nothing,
+        a_tank_of_faces_with_two_sides_stays_hollow,
+        a_box_flush_in_the_corner_of_another_is_not_guessed,
+        a_face_of_boxes_inside_each_other_is_not_left_out_where_a_third_body_covers_it,
+        no_stack_is_told_wrong,
+        curved_bodies_that_are_there_again_change_nothing,
+        cylinders_may_stand_on_each_other,
+        patches_with_the_same_edges_are_no_copies,
+        closure_leaves_out_copies_and_faces_between};
     return suite_main_with("shared solids", tests, sizeof tests / sizeof tests[0], open_registry,
                            close_registry);
 }
