@@ -77,6 +77,7 @@ core_plugin = \
     core/plugin/channel.h \
     core/plugin/elf_dynamic.c core/plugin/elf_dynamic.h \
     core/plugin/elf_file.c core/plugin/elf_file.h \
+    core/plugin/elf_places.c \
     core/plugin/elf_probe.c core/plugin/elf_probe.h \
     core/plugin/elf_relocations.c \
     core/plugin/elf_segments.c core/plugin/elf_segments.h \
@@ -102,6 +103,7 @@ core_plugin = \
     core/plugin/registry.c core/plugin/registry.h \
     core/plugin/registry_internal.h \
     core/plugin/registry_scan.c \
+    core/plugin/start_vectors.c core/plugin/start_vectors.h \
     core/plugin/type_view.h \
     core/plugin/value_bytes.c core/plugin/value_bytes.h \
     core/plugin/worker.c core/plugin/worker.h \

@@ -283,6 +283,7 @@ check_LTLIBRARIES = \
     tests/plugins/constructor_crashes.la \
     tests/plugins/constructor_exits.la \
     tests/plugins/constructor_hangs.la \
+    tests/plugins/constructor_overwrites.la \
     tests/plugins/create_crashes.la \
     tests/plugins/create_fails.la \
     tests/plugins/create_null.la \
@@ -386,6 +387,7 @@ tests_plugins_constructor_aborts_la_LDFLAGS = $(test_plugin_ldflags)
 tests_plugins_constructor_crashes_la_LDFLAGS = $(test_plugin_ldflags)
 tests_plugins_constructor_exits_la_LDFLAGS = $(test_plugin_ldflags)
 tests_plugins_constructor_hangs_la_LDFLAGS = $(test_plugin_ldflags)
+tests_plugins_constructor_overwrites_la_LDFLAGS = $(test_plugin_ldflags)
 tests_plugins_create_crashes_la_LDFLAGS = $(test_plugin_ldflags)
 tests_plugins_create_fails_la_LDFLAGS = $(test_plugin_ldflags)
 tests_plugins_create_null_la_LDFLAGS = $(test_plugin_ldflags)
@@ -626,12 +628,15 @@ EXTRA_DIST += \
     tests/fuzz/csv.dict \
     tests/fuzz/elf.d/calls_malloc \
     tests/fuzz/elf.d/class \
+    tests/fuzz/elf.d/constructor_wrong \
+    tests/fuzz/elf.d/constructor_wrong_too \
     tests/fuzz/elf.d/cut \
     tests/fuzz/elf.d/cut_header \
     tests/fuzz/elf.d/cut_to_nothing \
     tests/fuzz/elf.d/dynamic_address \
     tests/fuzz/elf.d/dynamic_gone \
     tests/fuzz/elf.d/dynamic_hash \
+    tests/fuzz/elf.d/dynamic_init \
     tests/fuzz/elf.d/dynamic_strtab \
     tests/fuzz/elf.d/dynamic_tag \
     tests/fuzz/elf.d/entry \
@@ -649,6 +654,7 @@ EXTRA_DIST += \
     tests/fuzz/elf.d/phnum \
     tests/fuzz/elf.d/phoff \
     tests/fuzz/elf.d/relocation_addend \
+    tests/fuzz/elf.d/relocation_constructor \
     tests/fuzz/elf.d/relocation_far \
     tests/fuzz/elf.d/relocation_kind \
     tests/fuzz/elf.d/segment_address \

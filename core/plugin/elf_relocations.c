@@ -11,11 +11,22 @@ typedef struct machine_kinds {
     Elf64_Word resolved;   /* what the function at the addend answers */
     Elf64_Word copy;       /* a symbol's bytes; of programs only */
     Elf64_Word descriptor; /* of thread-local storage: two words */
+    Elf64_Word half[3];    /* write 4 bytes */
 } machine_kinds;
 
 static const machine_kinds kinds_of_machines[] = {
-    {EM_X86_64, R_X86_64_RELATIVE, R_X86_64_IRELATIVE, R_X86_64_COPY, R_X86_64_TLSDESC},
-    {EM_AARCH64, R_AARCH64_RELATIVE, R_AARCH64_IRELATIVE, R_AARCH64_COPY, R_AARCH64_TLSDESC},
+    {EM_X86_64,
+     R_X86_64_RELATIVE,
+     R_X86_64_IRELATIVE,
+     R_X86_64_COPY,
+     R_X86_64_TLSDESC,
+     {R_X86_64_32, R_X86_64_PC32, R_X86_64_SIZE32}},
+    {EM_AARCH64,
+     R_AARCH64_RELATIVE,
+     R_AARCH64_IRELATIVE,
+     R_AARCH64_COPY,
+     R_AARCH64_TLSDESC,
+     {R_AARCH64_ABS32, R_AARCH64_PREL32, R_AARCH64_PREL32}},
 };
 
 static const machine_kinds *kinds_of(const elf_object *o)
@@ -45,11 +56,13 @@ static bool check_function(elf_object *o, Elf64_Sxword tag)
            elf_refuse(o, "its first or last function is no code");
 }
 
+/* Loaders ignore what is no whole word. */
 static bool check_array(elf_object *o, Elf64_Sxword tag, Elf64_Sxword size_tag, uint64_t array[2])
 {
     array[0] = array[1] = 0;
-    return !find_table(o, tag, size_tag, &array[0], &array[1]) ||
-           elf_is_in_part(o, array[0], array[1], PF_R) ||
+    if (!find_table(o, tag, size_tag, &array[0], &array[1])) array[0] = array[1] = 0;
+    array[1] -= array[1] % 8;
+    return array[1] == 0 || elf_is_in_part(o, array[0], array[1], PF_R) ||
            elf_refuse(o, "its constructors or destructors lie outside of what is loaded");
 }
 
@@ -58,14 +71,6 @@ static bool check_calls(elf_object *o)
     return check_function(o, DT_INIT) && check_function(o, DT_FINI) &&
            check_array(o, DT_INIT_ARRAY, DT_INIT_ARRAYSZ, o->called[0]) &&
            check_array(o, DT_FINI_ARRAY, DT_FINI_ARRAYSZ, o->called[1]);
-}
-
-/* Whether a word at that address is called. */
-static bool is_called(const elf_object *o, uint64_t address)
-{
-    for (int k = 0; k < 2; ++k)
-        if (address >= o->called[k][0] && address - o->called[k][0] < o->called[k][1]) return true;
-    return false;
 }
 
 /* --- Relocations ------------------------------------------------------------------------------ */
@@ -79,50 +84,92 @@ static Elf64_Word written_flag(const elf_object *o)
     return code ? PF_R : PF_W;
 }
 
-static bool check_place(elf_object *o, uint64_t place, uint64_t length)
-{
-    return elf_is_in_part(o, place, length, o->written) ||
-           elf_refuse(o, "a relocation writes to %#llx, which is not the object's to write",
-                      (unsigned long long)place);
-}
-
 static bool check_target(elf_object *o, uint64_t place, uint64_t target)
 {
-    if (is_called(o, place) ? elf_is_code(o, target) : elf_loads_span(o->d.loads, target, 0))
+    if (elf_places_are_called(o, place, 8) ? elf_is_code(o, target)
+                                           : elf_loads_span(o->d.loads, target, 0))
         return true;
     return elf_refuse(o, "a relocation at %#llx refers to %#llx, outside of what is loaded",
                       (unsigned long long)place, (unsigned long long)target);
 }
 
-static bool check_relocation(elf_object *o, const machine_kinds *kinds, const Elf64_Rela *r)
+/* Where kinds are not told apart, only the first byte is known to be written. */
+static uint64_t bytes_written(const machine_kinds *kinds, uint64_t kind)
+{
+    if (kinds == NULL) return 1;
+    for (size_t k = 0; k < sizeof kinds->half / sizeof *kinds->half; ++k)
+        if (kind == kinds->half[k]) return 4;
+    return kind == kinds->descriptor ? 16 : 8;
+}
+
+/* What is called is an address of the object's own code: relative to it, or of its symbol `s`. */
+static bool check_called(elf_object *o, const machine_kinds *kinds, const Elf64_Rela *r,
+                         const Elf64_Sym *s)
+{
+    const uint64_t kind = ELF64_R_TYPE(r->r_info);
+    if (!elf_places_are_called(o, r->r_offset, bytes_written(kinds, kind))) return true;
+    return kind == kinds->relative || (kind != kinds->resolved && s != NULL) ||
+           elf_refuse(o, "a relocation at %#llx makes it call what is not its own code",
+                      (unsigned long long)r->r_offset);
+}
+
+/* Its value, of a machine whose kinds are told apart. */
+static bool check_value(elf_object *o, const machine_kinds *kinds, const Elf64_Rela *r)
 {
     const uint64_t kind = ELF64_R_TYPE(r->r_info), symbol = ELF64_R_SYM(r->r_info),
                    target = (uint64_t)r->r_addend;
+    Elf64_Sym s;
+    const bool placed = symbol != 0 && elf_symbol_load(o, symbol, &s) && elf_symbol_is_placed(&s);
+    if (kind == kinds->copy) return elf_refuse(o, "a relocation copies, as in a program");
+    if (!check_called(o, kinds, r, placed ? &s : NULL)) return false;
+    if (kind == kinds->relative) return check_target(o, r->r_offset, target);
+    if (kind == kinds->resolved)
+        return elf_is_code(o, target) ||
+               elf_refuse(o, "a resolver at %#llx is no code", (unsigned long long)target);
+    return !placed || check_target(o, r->r_offset, s.st_value + target);
+}
+
+static bool check_relocation(elf_object *o, const machine_kinds *kinds, const Elf64_Rela *r)
+{
+    const uint64_t kind = ELF64_R_TYPE(r->r_info), symbol = ELF64_R_SYM(r->r_info);
     if (kind == 0) return true; /* none, on every machine */
     if (symbol >= o->symbol_count)
         return elf_refuse(o, "a relocation is of symbol %llu, there are %llu",
                           (unsigned long long)symbol, (unsigned long long)o->symbol_count);
-    const bool is_pair = kinds != NULL && kind == kinds->descriptor;
-    if (!check_place(o, r->r_offset, is_pair ? 16 : 8)) return false;
-    if (kinds == NULL) return true;
-    if (kind == kinds->copy) return elf_refuse(o, "a relocation copies, as in a program");
-    if (kind == kinds->relative) return check_target(o, r->r_offset, target);
-    if (kind == kinds->resolved && !elf_is_code(o, target))
-        return elf_refuse(o, "a resolver at %#llx is no code", (unsigned long long)target);
-    Elf64_Sym s;
-    return kind == kinds->resolved || symbol == 0 || !elf_symbol_load(o, symbol, &s) ||
-           !elf_symbol_is_placed(&s) || check_target(o, r->r_offset, s.st_value + target);
+    return elf_places_add(o, r->r_offset, bytes_written(kinds, kind)) &&
+           (kinds == NULL || check_value(o, kinds, r));
+}
+
+/* Loaders take that many of the first entries for relative ones, whatever their kind. */
+static uint64_t count_relative(const elf_object *o, Elf64_Sxword tag)
+{
+    uint64_t count = 0;
+    if (tag == DT_RELA) elf_dynamic_find(&o->d, DT_RELACOUNT, &count);
+    return count;
+}
+
+/* Whether that table is the end of another one, as old linkers have it; loaders then skip it. */
+static bool is_within(const elf_object *o, uint64_t at, uint64_t length)
+{
+    uint64_t other, size;
+    return find_table(o, DT_RELA, DT_RELASZ, &other, &size) && at >= other && at - other < size &&
+           length == size - (at - other);
 }
 
 static bool check_rela(elf_object *o, Elf64_Sxword tag, Elf64_Sxword size_tag)
 {
     const machine_kinds *kinds = kinds_of(o);
+    const uint64_t relative = count_relative(o, tag);
     uint64_t at, length;
     if (!find_table(o, tag, size_tag, &at, &length)) return true;
-    for (uint64_t k = 0; k + sizeof(Elf64_Rela) <= length; k += sizeof(Elf64_Rela)) {
+    if (tag == DT_JMPREL && is_within(o, at, length)) return true;
+    for (uint64_t k = 0; k < length / sizeof(Elf64_Rela); ++k) {
         Elf64_Rela r;
-        if (!elf_dynamic_load(&o->d, at + k, &r, sizeof r))
+        if (!elf_dynamic_load(&o->d, at + k * sizeof r, &r, sizeof r))
             return elf_refuse(o, "its relocations lie outside of what is loaded");
+        if (kinds != NULL && k < relative && ELF64_R_TYPE(r.r_info) != kinds->relative)
+            return elf_refuse(o, "relocation %llu is not relative, the first %llu must be",
+                              (unsigned long long)k, (unsigned long long)relative);
         if (!check_relocation(o, kinds, &r)) return false;
     }
     return true;
@@ -144,9 +191,12 @@ uint64_t elf_relocations_symbols(elf_object *o)
 /* A word that holds what it refers to, relative to where the object is. */
 static bool check_word(elf_object *o, uint64_t place)
 {
-    uint64_t target = 0;
-    elf_dynamic_load(&o->d, place, &target, sizeof target);
-    return check_place(o, place, sizeof target) && check_target(o, place, target);
+    uint64_t target;
+    if (!elf_places_add(o, place, sizeof target)) return false;
+    return elf_dynamic_load(&o->d, place, &target, sizeof target)
+               ? check_target(o, place, target)
+               : elf_refuse(o, "a relative relocation at %#llx is of no word of the file",
+                            (unsigned long long)place);
 }
 
 /* DT_RELR: an even entry is the address of a word; bit k of an odd one stands for the k-th word
@@ -188,5 +238,6 @@ bool elf_relocations_check(elf_object *o)
 {
     o->written = written_flag(o);
     return check_sizes(o) && check_calls(o) && check_rela(o, DT_RELA, DT_RELASZ) &&
-           check_rela(o, DT_JMPREL, DT_PLTRELSZ) && check_relr(o);
+           check_rela(o, DT_JMPREL, DT_PLTRELSZ) && check_relr(o) &&
+           elf_places_check(o, kinds_of(o) != NULL);
 }

@@ -8,6 +8,7 @@
 
 #include <stdarg.h>
 #include <stdio.h>
+#include <stdlib.h>
 #include <string.h>
 
 bool elf_refuse(elf_object *o, const char *format, ...)
@@ -68,7 +69,9 @@ bool elf_tables_check(elf_file *file, const elf_loads *loads, char *text, size_t
     elf_object o = {.text = text, .size = size};
     if (!elf_dynamic_open(&o.d, file, loads))
         return elf_refuse(&o, "its dynamic table does not end");
-    if (!check_strings(&o) || !elf_symbols_check(&o) || !elf_relocations_check(&o)) return false;
+    const bool good = check_strings(&o) && elf_symbols_check(&o) && elf_relocations_check(&o);
+    free(o.places.place);
+    if (!good) return false;
     snprintf(text, size, "%llu symbols, all inside the object", (unsigned long long)o.symbol_count);
     return true;
 }

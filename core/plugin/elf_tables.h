@@ -15,8 +15,9 @@
  *   - strings end inside the table of strings, and every name begins there;
  *   - the table of hashes leads to symbols that are there, each of whose versions is declared;
  *   - symbols, and what is relocated relative to the object, lie in its memory;
- *   - relocations write to memory that may be written, of symbols that are there;
- *   - constructors, destructors and resolvers lie in code.
+ *   - relocations write to memory that may be written, no byte twice and none of the dynamic table
+ *     (elf_places.c has the lemma), of symbols that are there;
+ *   - constructors, destructors and resolvers lie in code, and words that name them are relocated.
  *
  * What code does is not examined. False: `text` says which table is wrong. */
 bool elf_tables_check(elf_file *file, const elf_loads *loads, char *text, size_t size);

@@ -7,6 +7,7 @@
 #include "core/base/text.h"
 #include "core/plugin/plugin_check.h"
 #include "core/plugin/plugin_file.h"
+#include "core/plugin/start_vectors.h"
 
 #include <assert.h>
 #include <dlfcn.h>
@@ -121,13 +122,31 @@ static void run(plugin_file *plugin, const char *path, load_outcome *out)
     }
 }
 
+static void refuse_changes(const start_vectors *before, load_outcome *out)
+{
+    char lost[128];
+    if (out->code != IMP_SUCCESS || start_vectors_are_kept(before, lost, sizeof lost)) return;
+    load_outcome_refuse(out, LOAD_PROBE, "trial",
+                        "loading it overwrites %s; look at its constructors, which are called with "
+                        "argc, argv and envp",
+                        lost);
+    text_clean(out->error.text);
+}
+
 /* In the child: all of it, and closing too. */
 static void try_out(const char *path, load_outcome *out)
 {
     plugin_file plugin = {.handle = NULL};
+    start_vectors before;
+    if (!start_vectors_copy(&before)) {
+        out->code = IMP_ERROR_MEMORY;
+        return;
+    }
     step_read(&plugin, path, out);
     if (out->code == IMP_SUCCESS) run(&plugin, path, out);
     plugin_file_close(&plugin, path);
+    refuse_changes(&before, out);
+    start_vectors_free(&before);
 }
 
 /* "check: why". */

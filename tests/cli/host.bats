@@ -12,6 +12,7 @@ bad_parameter_table: types: bad_parameter_table: radius: default_value: got -1, 
 constructor_aborts: trial: loading it crashes: signal 6
 constructor_crashes: trial: loading it crashes: signal 11
 constructor_exits: trial: loading it ends the process with status 0; a plugin must not exit
+constructor_overwrites: trial: loading it overwrites the environment variable
 fp_mode: load: loading it changes the mode of arithmetic
 half_bad: types: half_bad: create is NULL; only include, apply, net, rigid, span, distance, symmetry, formula and write_formula may be
 newer_minor: abi: abi_minor is 77, the host'"'"'s is 0 and may not be less; use a newer host, or
@@ -29,10 +30,10 @@ wrong_abi_major: abi: abi_major is 9, the host'"'"'s is 1; rebuild the plugin'
     local name reason check
     while IFS=: read -r name reason; do takes "$name"; done <<<"$sins_of_loading"
     run -0 list
-    [[ $output == *'17 files or directories were rejected; `impinge list --refused` shows why.'* ]]
+    [[ $output == *'18 files or directories were rejected; `impinge list --refused` shows why.'* ]]
     run -0 list --json
     valid types
-    json '.refused | length == 17'
+    json '.refused | length == 18'
     while IFS=: read -r name reason; do
         left_out "$name.so" "${reason# }"
     done <<<"$sins_of_loading"

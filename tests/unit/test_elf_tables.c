@@ -156,6 +156,7 @@ START_TEST(relocations_must_stay_inside)
     assert_refused(called + addend, 0, 8, "outside of what is loaded");
     assert_refused(any + offsetof(Elf64_Rela, r_info) + 4, 0xffffff, 4, "is of symbol 16777215");
 #if defined(__x86_64__)
+    memset(plugin.at + value_at(DT_RELACOUNT), 0, 8);
     assert_refused(any + offsetof(Elf64_Rela, r_info), R_X86_64_COPY, 4, "copies");
     assert_refused(any + offsetof(Elf64_Rela, r_info), R_X86_64_IRELATIVE, 4, "resolver");
 #endif
@@ -166,11 +167,12 @@ START_TEST(relocations_must_stay_inside)
 END_TEST
 
 /* Relocations are packed as by `-z pack-relative-relocs`: their table lies over the unwinding
- * table, which the probe does not read; two entries that a plugin can do without point to it. */
+ * table, which the probe does not read; two entries that a plugin can do without point to it. The
+ * first words of the global offset table are not relocated otherwise. */
 START_TEST(packed_relocations_must_stay_inside)
 {
     const Elf64_Phdr unwinding = segment_of(PT_GNU_EH_FRAME), dynamic = segment_of(PT_DYNAMIC);
-    const uint64_t words[2] = {dynamic.p_vaddr + 8, 3};
+    const uint64_t got = value_of(DT_PLTGOT), words[2] = {got, 3};
     const Elf64_Dyn table = {DT_RELR, {unwinding.p_vaddr}}, size = {DT_RELRSZ, {sizeof words}};
     memcpy(plugin.at + entry_of(DT_SONAME), &table, sizeof table);
     memcpy(plugin.at + entry_of(DT_NEEDED), &size, sizeof size);
@@ -179,9 +181,56 @@ START_TEST(packed_relocations_must_stay_inside)
     ck_assert_msg(elf_probe_refusal(&found) == NULL, "%s", elf_probe_refusal(&found)->text);
     assert_refused(unwinding.p_offset, far, 8, "not the object's to write");
     assert_refused(unwinding.p_offset, 3, 8, "not the object's to write");
-    /* A word that is no address: the tag DT_VERNEED. */
-    const uint64_t tag = dynamic.p_vaddr + (entry_of(DT_VERNEED) - dynamic.p_offset);
-    assert_refused(unwinding.p_offset, tag, 8, "refers to 0x6ffffffe, outside");
+    assert_refused(unwinding.p_offset, dynamic.p_vaddr + 8, 8, "in the dynamic table");
+    assert_refused(unwinding.p_offset + 8, got, 8, "two relocations write");
+    assert_refused(got + 8 - dynamic.p_vaddr + dynamic.p_offset, far, 8,
+                   "refers to 0x10000000000, outside");
+}
+END_TEST
+
+/* The offset of the first relocation to code that nothing calls when the object is loaded. */
+static size_t relocation_to_code(void)
+{
+    const uint64_t calls = value_of(DT_FINI_ARRAY) + value_of(DT_FINI_ARRAYSZ),
+                   code = value_of(DT_INIT), end = value_of(DT_FINI);
+    size_t at = relocation_of(calls, far);
+    for (uint64_t target = 0; target < code || target >= end; at += sizeof(Elf64_Rela))
+        memcpy(&target, plugin.at + at + offsetof(Elf64_Rela, r_addend), sizeof target);
+    return at - sizeof(Elf64_Rela);
+}
+
+/* The first case makes a surface's function a constructor, which overwrites the environment. */
+START_TEST(relocations_write_no_byte_twice)
+{
+    const uint64_t array = value_of(DT_INIT_ARRAY);
+    const size_t any = relocation_to_code();
+    uint64_t place;
+    memcpy(&place, plugin.at + any + sizeof(Elf64_Rela), sizeof place);
+    assert_refused(any, array, 8, "two relocations write");
+    assert_refused(any, array + 4, 8, "two relocations write");
+    assert_refused(any, place, 8, "two relocations write");
+    assert_refused(any, place - 1, 8, "two relocations write");
+    assert_refused(any, segment_of(PT_DYNAMIC).p_vaddr + 8, 8, "in the dynamic table");
+}
+END_TEST
+
+START_TEST(what_is_called_is_code_of_the_object)
+{
+#if defined(__x86_64__)
+    const size_t called = relocation_of(value_of(DT_INIT_ARRAY), value_of(DT_INIT_ARRAYSZ)),
+                 kind = called + offsetof(Elf64_Rela, r_info);
+    const uint64_t far_symbol = (uint64_t)1 << 32 | R_X86_64_64;
+    assert_refused(kind, far_symbol, 8, "is not relative, the first");
+    const uint64_t relative = value_of(DT_RELACOUNT);
+    assert_refused(value_at(DT_RELACOUNT), relative + 1, 8, "is not relative, the first");
+    memset(plugin.at + value_at(DT_RELACOUNT), 0, 8);
+    assert_refused(kind, R_X86_64_NONE, 4, "are relocated, of");
+    assert_refused(kind, R_X86_64_IRELATIVE, 4, "call what is not its own code");
+    assert_refused(kind, R_X86_64_DTPMOD64, 4, "call what is not its own code");
+    assert_refused(kind, R_X86_64_PC32, 4, "call what is not its own code");
+    assert_refused(called, value_of(DT_INIT_ARRAY) - 4, 8, "relocat");
+#endif
+    assert_refused(value_at(DT_FINI_ARRAYSZ), value_of(DT_FINI_ARRAYSZ) + 8, 8, "relocat");
 }
 END_TEST
 
@@ -206,10 +255,14 @@ END_TEST
 
 int main(void)
 {
-    const TTest *const tests[] = {
-        strings_and_names_must_be_there,     hashes_must_lead_to_symbols_that_are_there,
-        versions_must_be_declared,           relocations_must_stay_inside,
-        packed_relocations_must_stay_inside, there_is_one_dynamic_table};
+    const TTest *const tests[] = {strings_and_names_must_be_there,
+                                  hashes_must_lead_to_symbols_that_are_there,
+                                  versions_must_be_declared,
+                                  relocations_must_stay_inside,
+                                  packed_relocations_must_stay_inside,
+                                  relocations_write_no_byte_twice,
+                                  what_is_called_is_code_of_the_object,
+                                  there_is_one_dynamic_table};
     return suite_main_with("elf_tables", tests, sizeof tests / sizeof tests[0], read_plugin,
                            free_plugin);
 }
