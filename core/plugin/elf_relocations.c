@@ -11,6 +11,7 @@ typedef struct machine_kinds {
     Elf64_Word resolved;   /* what the function at the addend answers */
     Elf64_Word copy;       /* a symbol's bytes; of programs only */
     Elf64_Word descriptor; /* of thread-local storage: two words */
+    Elf64_Word thread[2];  /* offset in thread-local storage, from either end */
     Elf64_Word half[3];    /* write 4 bytes */
 } machine_kinds;
 
@@ -20,12 +21,14 @@ static const machine_kinds kinds_of_machines[] = {
      R_X86_64_IRELATIVE,
      R_X86_64_COPY,
      R_X86_64_TLSDESC,
+     {R_X86_64_DTPOFF64, R_X86_64_TPOFF64},
      {R_X86_64_32, R_X86_64_PC32, R_X86_64_SIZE32}},
     {EM_AARCH64,
      R_AARCH64_RELATIVE,
      R_AARCH64_IRELATIVE,
      R_AARCH64_COPY,
      R_AARCH64_TLSDESC,
+     {R_AARCH64_TLS_DTPREL, R_AARCH64_TLS_TPREL},
      {R_AARCH64_ABS32, R_AARCH64_PREL32, R_AARCH64_PREL32}},
 };
 
@@ -113,6 +116,22 @@ static bool check_called(elf_object *o, const machine_kinds *kinds, const Elf64_
                       (unsigned long long)r->r_offset);
 }
 
+/* An offset in the object's own thread-local storage; of another object's it is not known. */
+static bool check_thread(elf_object *o, const machine_kinds *kinds, const Elf64_Rela *r)
+{
+    const uint64_t kind = ELF64_R_TYPE(r->r_info), symbol = ELF64_R_SYM(r->r_info);
+    Elf64_Sym s = {.st_value = 0};
+    if (kind != kinds->thread[0] && kind != kinds->thread[1] && kind != kinds->descriptor)
+        return true;
+    if (symbol != 0 && (!elf_symbol_load(o, symbol, &s) || !elf_symbol_is_of_thread(&s)))
+        return true;
+    return s.st_value + (uint64_t)r->r_addend <= o->d.loads->thread_bytes ||
+           elf_refuse(o, "a relocation at %#llx refers to byte %llu of %llu of a thread",
+                      (unsigned long long)r->r_offset,
+                      (unsigned long long)(s.st_value + (uint64_t)r->r_addend),
+                      (unsigned long long)o->d.loads->thread_bytes);
+}
+
 /* Its value, of a machine whose kinds are told apart. */
 static bool check_value(elf_object *o, const machine_kinds *kinds, const Elf64_Rela *r)
 {
@@ -121,7 +140,7 @@ static bool check_value(elf_object *o, const machine_kinds *kinds, const Elf64_R
     Elf64_Sym s;
     const bool placed = symbol != 0 && elf_symbol_load(o, symbol, &s) && elf_symbol_is_placed(&s);
     if (kind == kinds->copy) return elf_refuse(o, "a relocation copies, as in a program");
-    if (!check_called(o, kinds, r, placed ? &s : NULL)) return false;
+    if (!check_called(o, kinds, r, placed ? &s : NULL) || !check_thread(o, kinds, r)) return false;
     if (kind == kinds->relative) return check_target(o, r->r_offset, target);
     if (kind == kinds->resolved)
         return elf_is_code(o, target) ||

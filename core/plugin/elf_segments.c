@@ -98,6 +98,14 @@ static bool is_followed(Elf64_Word type)
            type == PT_GNU_EH_FRAME || type == PT_PHDR;
 }
 
+static bool check_thread_storage(unsigned index, const Elf64_Phdr *s, char *text, size_t size)
+{
+    return (s->p_filesz <= s->p_memsz && (s->p_align & (s->p_align - 1)) == 0) ||
+           refuse(index, text, size, "(thread-local) has %llu bytes of %llu, aligned to %llu",
+                  (unsigned long long)s->p_filesz, (unsigned long long)s->p_memsz,
+                  (unsigned long long)s->p_align);
+}
+
 static bool check_others(elf_file *file, elf_loads *l, unsigned *dynamics, char *text, size_t size)
 {
     for (unsigned i = 0; i < file->header.e_phnum; ++i) {
@@ -107,6 +115,8 @@ static bool check_others(elf_file *file, elf_loads *l, unsigned *dynamics, char 
         if (read && !check_in_file(file, i, &s, text, size)) return false;
         if (is_followed(s.p_type) && !is_inside(&s, l))
             return refuse(i, text, size, "(type %#x) lies outside of what is loaded", s.p_type);
+        if (s.p_type == PT_TLS && !check_thread_storage(i, &s, text, size)) return false;
+        if (s.p_type == PT_TLS) l->thread_bytes = s.p_memsz;
         if (s.p_type == PT_DYNAMIC) l->dynamic = s, *dynamics += 1;
     }
     return true;

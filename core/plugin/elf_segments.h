@@ -16,6 +16,7 @@
  *   - PT_LOADs ascend, and no two share a page of memory;
  *   - what the loader reads, writes or protects besides (PT_DYNAMIC, PT_TLS, PT_GNU_RELRO,
  *     PT_GNU_EH_FRAME, PT_PHDR) lies inside a PT_LOAD;
+ *   - thread-local storage has room for its bytes in the file, and a power of two for alignment;
  *   - there is one PT_DYNAMIC.
  *
  * Addresses are those in the file, to which the loader adds where it put the object. */
@@ -26,7 +27,8 @@ typedef struct elf_loads {
     Elf64_Phdr part[ELF_LOADS_MAX]; /* PT_LOAD; ascending */
     Elf64_Phdr dynamic;             /* PT_DYNAMIC */
     unsigned count;
-    uint64_t page; /* bytes */
+    uint64_t page;         /* bytes */
+    uint64_t thread_bytes; /* of thread-local storage */
 } elf_loads;
 
 /* False: `text` says which header is wrong. */

@@ -140,6 +140,21 @@ bool elf_symbol_is_placed(const Elf64_Sym *s)
            ELF64_ST_TYPE(s->st_info) != STT_TLS;
 }
 
+bool elf_symbol_is_of_thread(const Elf64_Sym *s)
+{
+    return s->st_shndx != SHN_UNDEF && ELF64_ST_TYPE(s->st_info) == STT_TLS;
+}
+
+static bool is_inside(const elf_object *o, const Elf64_Sym *s)
+{
+    const uint64_t thread = o->d.loads->thread_bytes;
+    if (elf_symbol_is_of_thread(s))
+        return s->st_value <= thread && s->st_size <= thread - s->st_value;
+    if (!elf_symbol_is_placed(s)) return true;
+    return elf_loads_span(o->d.loads, s->st_value, s->st_size) &&
+           (ELF64_ST_TYPE(s->st_info) != STT_GNU_IFUNC || elf_is_code(o, s->st_value));
+}
+
 static bool check_symbols(elf_object *o)
 {
     if (!elf_dynamic_find(&o->d, DT_SYMTAB, &o->symbols)) return elf_refuse(o, "it has no symbols");
@@ -149,9 +164,7 @@ static bool check_symbols(elf_object *o)
             return elf_refuse(o, "its %llu symbols lie outside of what is loaded",
                               (unsigned long long)o->symbol_count);
         if (!elf_check_name(o, s.st_name, "a symbol")) return false;
-        if (!elf_symbol_is_placed(&s)) continue;
-        if (!elf_loads_span(o->d.loads, s.st_value, s.st_size) ||
-            (ELF64_ST_TYPE(s.st_info) == STT_GNU_IFUNC && !elf_is_code(o, s.st_value)))
+        if (!is_inside(o, &s))
             return elf_refuse(o, "symbol %llu (%llu bytes at %#llx) lies outside of what is loaded",
                               (unsigned long long)k, (unsigned long long)s.st_size,
                               (unsigned long long)s.st_value);

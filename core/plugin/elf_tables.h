@@ -14,7 +14,8 @@
  *
  *   - strings end inside the table of strings, and every name begins there;
  *   - the table of hashes leads to symbols that are there, each of whose versions is declared;
- *   - symbols, and what is relocated relative to the object, lie in its memory;
+ *   - symbols, and what is relocated relative to the object, lie in its memory, or in its
+ *     thread-local storage;
  *   - relocations write to memory that may be written, no byte twice and none of the dynamic table
  *     (elf_places.c has the lemma), of symbols that are there;
  *   - constructors, destructors and resolvers lie in code, and words that name them are relocated.

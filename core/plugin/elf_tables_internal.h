@@ -44,6 +44,9 @@ bool elf_symbol_load(elf_object *o, uint64_t k, Elf64_Sym *symbol);
 /* Whether it is an address in the object. */
 bool elf_symbol_is_placed(const Elf64_Sym *s);
 
+/* Whether it is an offset in the object's thread-local storage. */
+bool elf_symbol_is_of_thread(const Elf64_Sym *s);
+
 /* Keeps a place that a relocation writes. False: it is not the object's to write, part of the
  * dynamic table, or more than the file has room for. */
 bool elf_places_add(elf_object *o, uint64_t at, uint64_t length);

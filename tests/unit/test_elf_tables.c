@@ -234,17 +234,49 @@ START_TEST(what_is_called_is_code_of_the_object)
 }
 END_TEST
 
-START_TEST(there_is_one_dynamic_table)
+/* The offset of a program header that a plugin can do without. */
+static size_t spare_header(void)
 {
     Elf64_Ehdr header;
+    Elf64_Word type = PT_NULL;
     memcpy(&header, plugin.at, sizeof header);
+    size_t at = header.e_phoff - sizeof(Elf64_Phdr);
+    while (type != PT_GNU_STACK) memcpy(&type, plugin.at + (at += sizeof(Elf64_Phdr)), sizeof type);
+    return at;
+}
+
+/* A program header becomes one of 16 bytes for each thread. */
+START_TEST(offsets_in_a_thread_must_stay_inside)
+{
+#if defined(__x86_64__)
+    const size_t at = spare_header();
+    const Elf64_Phdr thread = {.p_type = PT_TLS, .p_memsz = 16, .p_align = 8};
+    const size_t any = relocation_to_code();
+    const uint64_t kind = R_X86_64_DTPOFF64, last = 16;
+    memcpy(plugin.at + at, &thread, sizeof thread);
+    memset(plugin.at + value_at(DT_RELACOUNT), 0, 8);
+    memcpy(plugin.at + any + offsetof(Elf64_Rela, r_info), &kind, sizeof kind);
+    memcpy(plugin.at + any + offsetof(Elf64_Rela, r_addend), &last, sizeof last);
+    const elf_probe good = probe();
+    ck_assert_msg(elf_probe_refusal(&good) == NULL, "%s", elf_probe_refusal(&good)->text);
+    assert_refused(any + offsetof(Elf64_Rela, r_addend), 17, 8, "byte 17 of 16 of a thread");
+    assert_refused(any + offsetof(Elf64_Rela, r_addend), far, 8, "of 16 of a thread");
+    const uint64_t more = 17, odd = 3;
+    memcpy(plugin.at + at + offsetof(Elf64_Phdr, p_align), &odd, sizeof odd);
+    elf_probe found = probe();
+    ck_assert_ptr_eq(elf_probe_refusal(&found), &found.check[PROBE_SEGMENTS]);
+    memcpy(plugin.at + at, &thread, sizeof thread);
+    memcpy(plugin.at + at + offsetof(Elf64_Phdr, p_filesz), &more, sizeof more);
+    found = probe();
+    ck_assert_ptr_eq(elf_probe_refusal(&found), &found.check[PROBE_SEGMENTS]);
+#endif
+}
+END_TEST
+
+START_TEST(there_is_one_dynamic_table)
+{
     const Elf64_Phdr dynamic = segment_of(PT_DYNAMIC);
-    for (size_t k = 0; k < header.e_phnum; ++k) {
-        const size_t at = header.e_phoff + k * sizeof(Elf64_Phdr);
-        Elf64_Phdr one;
-        memcpy(&one, plugin.at + at, sizeof one);
-        if (one.p_type == PT_GNU_STACK) memcpy(plugin.at + at, &dynamic, sizeof dynamic);
-    }
+    memcpy(plugin.at + spare_header(), &dynamic, sizeof dynamic);
     const elf_probe found = probe();
     ck_assert_ptr_eq(elf_probe_refusal(&found), &found.check[PROBE_SEGMENTS]);
     ck_assert_str_eq(found.check[PROBE_SEGMENTS].text,
@@ -262,6 +294,7 @@ int main(void)
                                   packed_relocations_must_stay_inside,
                                   relocations_write_no_byte_twice,
                                   what_is_called_is_code_of_the_object,
+                                  offsets_in_a_thread_must_stay_inside,
                                   there_is_one_dynamic_table};
     return suite_main_with("elf_tables", tests, sizeof tests / sizeof tests[0], read_plugin,
                            free_plugin);
