@@ -219,10 +219,8 @@ START_TEST(what_is_called_is_code_of_the_object)
 #if defined(__x86_64__)
     const size_t called = relocation_of(value_of(DT_INIT_ARRAY), value_of(DT_INIT_ARRAYSZ)),
                  kind = called + offsetof(Elf64_Rela, r_info);
-    const uint64_t far_symbol = (uint64_t)1 << 32 | R_X86_64_64;
-    assert_refused(kind, far_symbol, 8, "is not relative, the first");
-    const uint64_t relative = value_of(DT_RELACOUNT);
-    assert_refused(value_at(DT_RELACOUNT), relative + 1, 8, "is not relative, the first");
+    assert_refused(kind, (uint64_t)1 << 32 | R_X86_64_64, 8, "is not relative, the first");
+    assert_refused(value_at(DT_RELACOUNT), 1 << 20, 8, "is not relative, the first");
     memset(plugin.at + value_at(DT_RELACOUNT), 0, 8);
     assert_refused(kind, R_X86_64_NONE, 4, "are relocated, of");
     assert_refused(kind, R_X86_64_IRELATIVE, 4, "call what is not its own code");
