@@ -103,6 +103,7 @@ check_suites = \
     tests/unit/test_clocks \
     tests/unit/test_survey_samples \
     tests/unit/test_spreads \
+    tests/unit/test_survey_forms \
     tests/unit/test_survey_parts \
     tests/unit/test_threads \
     tests/unit/test_times \

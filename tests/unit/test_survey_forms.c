@@ -1,0 +1,60 @@
+/* SPDX-FileCopyrightText: The Impinge authors
+ * SPDX-License-Identifier: Apache-2.0 */
+#include <config.h>
+
+#include "tests/support/survey_helpers.h"
+
+/* Least distances over all values of parameters, against closed forms. */
+
+/* Brackets the least distance, which is `exact`, to one part in 50. */
+static void brackets(const char *text, double exact)
+{
+    imp_scene *scene = scene_of(text);
+    imp_clearance_options asked = imp_clearance_options_default();
+    asked.tolerance = 0.02;
+    const answer found = survey(scene, 1e-6, &asked, NULL);
+    ck_assert_int_eq(found.near.reason, IMP_REASON_NONE);
+    ck_assert_double_le(found.near.lower, exact + 1e-12);
+    ck_assert_double_ge(found.near.upper, exact - 1e-12);
+    ck_assert_double_ge(found.near.lower, (1 - 0.021) * found.near.upper);
+    imp_scene_free(scene);
+}
+
+/* A cone whose apex is in the origin, of base radius 1/2 at height 1, in a bore of radius 1 about
+ * the z axis. Tilts a about x and b about y turn its axis by the angle c with cos c = cos a cos b;
+ * a point of its rim comes as far out as sqrt(5/4) sin(atan(1/2) + c). */
+START_TEST(a_cone_with_two_tilts_comes_as_near_to_its_bore_as_its_rim)
+{
+    const double tilt = acos(cos(0.2) * cos(0.1));
+    brackets("{'parameters':{'a':[-0.2,0.2],'b':[-0.1,0.1]},'bodies':["
+             "{'surfaces':[{'type':'cone','radius':0.5,'height':-1,'center':[0,0,1]}],"
+             "'maps':[{'type':'rotate','axis':[1,0,0],'rate':1,'clock':'a'},"
+             "{'type':'rotate','axis':[0,1,0],'rate':1,'clock':'b'}]},"
+             "{'surfaces':[{'type':'cylinder','radius':1,'height':8}]}]}",
+             1 - sqrt(1.25) * sin(atan(0.5) + tilt));
+}
+END_TEST
+
+/* A ball of radius 1/4 above the origin, at height 2 + e, and a plane through the origin that is
+ * tilted by p about x and then by q about y: their distance is (2 + e) cos p cos q - 1/4. */
+START_TEST(a_ball_and_a_plane_under_three_errors_are_as_near_as_the_worst_of_them)
+{
+    brackets(
+        "{'parameters':{'e':[-0.1,0.05],'p':[-0.2,0.1],'q':[-0.1,0.3]},'bodies':["
+        "{'surfaces':[{'type':'sphere','radius':0.25,'center':[0,0,2]}],"
+        "'maps':[{'type':'translate','velocity':[0,0,1],'clock':'e'}]},"
+        "{'surfaces':[{'type':'plane','origin':[-9,-9,0],'edge_u':[18,0,0],'edge_v':[0,18,0]}],"
+        "'maps':[{'type':'rotate','axis':[1,0,0],'rate':1,'clock':'p'},"
+        "{'type':'rotate','axis':[0,1,0],'rate':1,'clock':'q'}]}]}",
+        1.9 * cos(0.2) * cos(0.3) - 0.25);
+}
+END_TEST
+
+int main(void)
+{
+    const suite_loop loops[] = {
+        {a_cone_with_two_tilts_comes_as_near_to_its_bore_as_its_rim, 1},
+        {a_ball_and_a_plane_under_three_errors_are_as_near_as_the_worst_of_them, 1}};
+    return suite_main_loops("survey_forms", loops, sizeof loops / sizeof *loops, open_registry,
+                            close_registry);
+}
