@@ -10,12 +10,13 @@ import impinge
 import pytest
 
 
-def arm(radius=0.25, reach=(0.0, 0.5)):
+def arm(radius=0.25, reach=(0.0, 0.5), **shape):
     """A ball at the end of an arm of length 2 that turns by `a` and slides outward by `s`, and one that
     rests at (3, 0, 0): at a and s their centres are sqrt(9 + (2+s)^2 - 6 (2+s) cos a) apart."""
     builder = impinge.Builder(time=(0, 1), parameters={"a": (0.25, 1.5), "s": reach})
-    builder.body("rest").surface("sphere", radius=radius, center=[3, 0, 0])
-    moved = builder.body("hand").surface("sphere", radius=radius, center=[2, 0, 0])
+    shape = shape or {"type": "sphere", "radius": radius}
+    builder.body("rest").surface(center=[3, 0, 0], **shape)
+    moved = builder.body("hand").surface(center=[2, 0, 0], **shape)
     moved.map("translate", velocity=[1, 0, 0], clock="s").map("rotate", axis=[0, 0, 1], rate=1, clock="a")
     return builder.build()
 
@@ -63,7 +64,7 @@ def test_a_scene_with_parameters_is_written_and_read():
 
 
 def test_a_limit_and_a_sink_leave_it_undecided():
-    scene = arm(radius=0.4)
+    scene = arm(type="ellipsoid", radii=[0.4, 0.4, 0.4])  # balls take too few pairs
     assert scene.clearance(tolerance=1e-8, max_pairs=200).reason == "pairs"
     assert scene.clearance(tolerance=1e-8, progress=lambda p: False).reason == "cancelled"
 
@@ -89,8 +90,9 @@ def test_wrong_values_and_clocks_are_named():
 def three(radius=0.25):
     """`arm` with a body that is far from both."""
     builder = impinge.Builder(time=(0, 1), parameters={"a": (0.25, 1.5), "s": (0, 0.5)})
-    builder.body("rest").surface("sphere", radius=radius, center=[3, 0, 0])
-    moved = builder.body("hand").surface("sphere", radius=radius, center=[2, 0, 0])
+    shape = shape or {"type": "sphere", "radius": radius}
+    builder.body("rest").surface(center=[3, 0, 0], **shape)
+    moved = builder.body("hand").surface(center=[2, 0, 0], **shape)
     moved.map("translate", velocity=[1, 0, 0], clock="s").map("rotate", axis=[0, 0, 1], rate=1, clock="a")
     builder.body("far").surface("sphere", center=[0, 0, 50])
     return builder.build()

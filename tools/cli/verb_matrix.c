@@ -10,6 +10,7 @@
 #include "tools/cli/output.h"
 #include "tools/cli/query.h"
 #include "tools/cli/reading_limit.h"
+#include "tools/cli/survey.h"
 #include "tools/cli/verbs.h"
 
 /* Solves the example of each surface type against that of each other, and under each map. */
@@ -74,6 +75,37 @@ static void tell_failure(matrix *m, const char *a, const char *b, const char *wh
     remark(m->args->verb->name, "%s  |  %s: %s", a, b, why);
 }
 
+/* Solves at the middle of the parameters' ranges, for a method that knows no parameters. */
+static imp_code solve_middle(imp_scene *scene, const arguments *args, imp_result *result,
+                             imp_error *error)
+{
+    const size_t count = imp_scene_parameter_count(scene);
+    double *values = calloc(count + 1, sizeof *values);
+    if (values == NULL) return error->code = IMP_ERROR_MEMORY;
+    for (size_t k = 0; k < count; ++k) {
+        imp_scene_parameter_info info;
+        if (imp_scene_parameter(scene, k, &info)) values[k] = 0.5 * info.lo + 0.5 * info.hi;
+    }
+    imp_scene *posed = imp_scene_at(scene, values, error);
+    const imp_code code =
+        posed != NULL ? query_solve(posed, args, result, NULL, error) : error->code;
+    imp_scene_free(posed);
+    free(values);
+    return code;
+}
+
+/* Solves for all values of the parameters, which a map such as `tolerance` brings along. */
+static imp_code solve_scene(imp_scene *scene, const arguments *args, imp_result *result,
+                            imp_error *error)
+{
+    if (!survey_is_needed(scene, args)) return query_solve(scene, args, result, NULL, error);
+    if (arguments_choice(args, "method", 0) != 0) return solve_middle(scene, args, result, error);
+    json_t *answer = NULL;
+    const imp_code code = survey_solve(scene, args, result, &answer, error);
+    json_decref(answer);
+    return code;
+}
+
 /* Solves one pair; a failure is reported at once, with both names. */
 static void solve(matrix *m, const char *a, const char *b, tally *t)
 {
@@ -82,8 +114,7 @@ static void solve(matrix *m, const char *a, const char *b, tally *t)
     reading_limit_begin(m->args, NULL);
     imp_scene *scene = imp_scene_from_pair(m->registry, a, b, &error);
     reading_limit_end();
-    const bool good =
-        scene != NULL && query_solve(scene, m->args, &result, NULL, &error) == IMP_SUCCESS;
+    const bool good = scene != NULL && solve_scene(scene, m->args, &result, &error) == IMP_SUCCESS;
     if (good) {
         count(t, &result);
         tell_cell(m, a, b, &result);

@@ -6,6 +6,7 @@
 #include <float.h>
 #include <stddef.h>
 
+#include "tools/proof/double_interval.h"
 #include "tools/verify/net.h"
 
 /* A rounding of 1 */
