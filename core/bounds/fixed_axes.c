@@ -60,7 +60,8 @@ IMP_QUAD_INLINE forms negative(const forms *f)
                    -f->vw, f->bends, f->is_cubic, -f->uuw, -f->uvw, -f->vvw};
 }
 
-IMP_QUAD_INLINE imp_quad turning(const forms *f)
+/* Bounds how far the form moves from its value at w = 0, for any parameters and w. */
+IMP_QUAD_INLINE imp_quad change_over_w(const forms *f)
 {
     const imp_quad slopes = imp_quad_abs(f->uw) + imp_quad_abs(f->vw);
     if (!f->is_cubic) return slopes;
@@ -90,12 +91,13 @@ IMP_QUAD_INLINE imp_quad lower(const forms *f, double w)
 IMP_QUAD_INLINE imp_quad min_upper_bound(const forms *f)
 {
     const quadratics p = {f->bu, f->bv, f->uu, f->uv, f->vv};
-    return imp_quad_min(quadratics_corner(&p) + turning(f), imp_quad_all(0));
+    return imp_quad_min(quadratics_corner(&p) + change_over_w(f), imp_quad_all(0));
 }
 
 /* --- What four axes show ---------------------------------------------------------------------- */
 
-/* Scales the axes to a length of 1 to 2 and points them from A to B at w. */
+/* Scales the axes to a longest coordinate of 1 and points them from A to B at w. Returns their
+ * longest coordinates before. */
 IMP_QUAD_INLINE imp_quad bundle_orient(bundle *n, const difference *r, double w)
 {
     const imp_quad longest = imp_quad_max(
@@ -140,7 +142,7 @@ typedef struct chord {
 IMP_QUAD_INLINE chord chord_under(const forms *f, const forms *g)
 {
     const imp_quad half = imp_quad_all(0.5), start = lower(f, -1) + lower(g, -1);
-    if (!imp_quad_any(turning(f) + turning(g) > imp_quad_all(0)))
+    if (!imp_quad_any(change_over_w(f) + change_over_w(g) > imp_quad_all(0)))
         return (chord){start, imp_quad_all(0)};
     const imp_quad end = lower(f, 1) + lower(g, 1);
     return (chord){half * (start + end), half * (end - start)};
@@ -209,6 +211,8 @@ IMP_QUAD_INLINE imp_quad along_ways(const difference *r, const bundle *n)
     return sum + size * imp_quad_all(WAYS_ROUNDING * UNIT_ROUNDOFF);
 }
 
+/* Cuts the range by the lemma above, along four axes: `near` is the lower chord, `far` the negative
+ * of the upper one; far_most bounds the latter before the slack. */
 IMP_QUAD_INLINE bool cut_along_bundle(const difference *r, bundle *n, double gamma_clear,
                                       w_range *s, gap_lines *lines, bool is_posed, bool bends)
 {
@@ -235,9 +239,9 @@ IMP_QUAD_INLINE bool cut_along_bundle(const difference *r, bundle *n, double gam
     window_lanes_add(&c, low, drift + near.tilt, limit);
     if (lines != NULL) add_lines(lines, n, sane, low, drift + near.tilt);
     const imp_quad high = offset + imp_quad_max(bend, none);
-    const imp_quad seen = imp_quad_abs(drift) - offset + min_upper_bound(&a) +
-                          min_upper_bound(&minus_b) - imp_quad_min(bend, none);
-    if (imp_quad_any(seen > none)) {
+    const imp_quad far_most = imp_quad_abs(drift) - offset + min_upper_bound(&a) +
+                              min_upper_bound(&minus_b) - imp_quad_min(bend, none);
+    if (imp_quad_any(far_most > none)) {
         chord far = chord_under(&a, &minus_b);
         if (is_posed) {
             far.middle -= over.middle;

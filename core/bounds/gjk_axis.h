@@ -6,7 +6,7 @@
 #include "core/bounds/difference.h"
 
 /* The axis along which two Taylor models are farthest apart: GJK
- *  * ==============================================================
+ * ==============================================================
  * At one moment of the window, GJK (gjk.h) searches the convex hull of B - A, widened by the box of
  * its slack. fixed_axes.c proves what the axis shows. */
 

@@ -18,7 +18,7 @@ enum { QUADS_MAX = (IMP_NET_POINTS + IMP_QUAD - 1) / IMP_QUAD };
 
 /* --- At one time ------------------------------------------------------------------------------ */
 
-/* The control points of a net relative to its place. */
+/* The control points of a net at one time, relative to its place. */
 typedef struct cloud {
     imp_quad x[3][QUADS_MAX];
 } cloud;
@@ -95,6 +95,8 @@ IMP_QUAD_INLINE imp_quad heights_along(const double *x, int stride, const imp_qu
            n[2] * imp_quad_load(x + 2 * stride);
 }
 
+/* Returns the least height of the net's control points, relative to its place, at both ends of the
+ * window. */
 IMP_QUAD_INLINE window_ends lowest_heights(const net *f, const time_window *w, const imp_quad n[3],
                                            int stride)
 {
@@ -212,7 +214,7 @@ IMP_QUAD_INLINE double slack_upper(const net *a, const net *b, vec3 n, const tim
     return padded_upper(error, 8) + size * (GAP_ROUNDING * UNIT_ROUNDOFF) + 0x1p-490;
 }
 
-PAD_COVERS(8, 5); /* errors: their sum, a product, three sums */
+PAD_COVERS(8, 6); /* errors: their sum 1, product 1, sums of coordinates 2; of the return value 2 */
 
 /* Returns n.(B's place - A's place) at the window's ends. */
 IMP_QUAD_INLINE window_ends places_along(const net *a, const net *b, vec3 n, const time_window *w)

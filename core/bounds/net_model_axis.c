@@ -165,7 +165,7 @@ IMP_QUAD_INLINE double net_model_slack_upper(const net_model *p, vec3 n, double 
            QUADRATIC_UNDERFLOW;
 }
 
-PAD_COVERS(8, 5); /* errors: their sum, a product, three sums */
+PAD_COVERS(8, 6); /* errors: their sum 1, product 1, sums of coordinates 2; of the return value 2 */
 
 /* Returns the model's least value along n at both ends of the window, relative to its centre, less
  * the most by which its acceleration lowers it in between. Lemma (bow). For fixed u and v the value

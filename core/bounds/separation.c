@@ -61,6 +61,7 @@ static bool cut_across(const node *a, const node *b, double gamma_clear, time_wi
     return true;
 }
 
+/* Cuts the range along turning axes, unless they seldom paid in this candidate pair. */
 static bool cut_by_turning(const difference *r, double gamma_clear, w_range *s, trial_rate *turning,
                            gap_lines *lines)
 {
@@ -71,9 +72,11 @@ static bool cut_by_turning(const difference *r, double gamma_clear, w_range *s, 
     return some;
 }
 
-/* Cuts by quadratics alone. `near` is NULL where only the window matters. */
-static bool shrink(const node *a, const node *b, double gamma_clear, time_window *window,
-                   vec3 *axis, trial_rate *turning, approach *near)
+/* Cuts by quadratics alone: along axes that need no search, then for up to `more.rounds` windows
+ * along fixed and turning axes. `near` is NULL where only the window matters. */
+static bool shrink_by_quadratics(const node *a, const node *b, double gamma_clear,
+                                 time_window *window, vec3 *axis, trial_rate *turning,
+                                 approach *near)
 {
     const strategy_goal goal = near == NULL ? GOAL_CONTACT : GOAL_DISTANCE;
     const quadratic_plan plan = strategy_of_quadratics(a, b, goal);
@@ -148,7 +151,7 @@ static bool shrink_by_hulls(strategy_hulls hulls, const node *a, const node *b, 
     }
     switch (strategy_after(hulls, a, b, found)) {
     case AFTER_HULLS_QUADRATICS:
-        return shrink(a, b, gamma_clear, window, axis, turning, NULL);
+        return shrink_by_quadratics(a, b, gamma_clear, window, axis, turning, NULL);
     case AFTER_HULLS_ONE_CUT:
         return cut_by_models(a, b, gamma_clear, window, axis, turning, found);
     default:
@@ -163,7 +166,7 @@ bool separation_without_nets(const node *a, const node *b, double gamma_clear, t
 {
     if (!a->bounded || !b->bounded) return true;
     return !separation_of_boxes(a, b, gamma_clear) &&
-           shrink(a, b, gamma_clear, window, axis, turning, NULL);
+           shrink_by_quadratics(a, b, gamma_clear, window, axis, turning, NULL);
 }
 
 bool separation_window(const node *a, const node *b, double gamma_clear, time_window *window,
@@ -193,7 +196,8 @@ bool separation_approach(const node *a, const node *b, double gamma_clear, time_
     if (!a->bounded || !b->bounded) return true;
     near->lower = separation_boxes_lower(a, b);
     if (near->lower > gamma_clear) return false;
-    return shrink(a, b, gamma_clear, window, axis, NULL, near) && !(near->lower > gamma_clear);
+    return shrink_by_quadratics(a, b, gamma_clear, window, axis, NULL, near) &&
+           !(near->lower > gamma_clear);
 }
 
 /* Roundings of boxes and balls: difference 1, square 1, sums 2, root, which halves them and counts

@@ -107,6 +107,7 @@ static imp_code seek_witness(const impact *im, const pair *p, witness *seen, imp
     return witness_at(nodes, t, y, seen, error);
 }
 
+/* Seeks a witness at the window's start; if not `moving`, evaluates the centres there. */
 static imp_code find_witness(impact *im, const pair *p, bool moving, witness *seen,
                              imp_error *error)
 {
@@ -193,10 +194,10 @@ static bool precision_ends(const impact *im, const pair *p, double flat)
 /* Whether a search for a witness is likely to succeed: remainders are small against gamma, or
  * cannot become smaller, or hulls are exact. At one instant it is also tried where one side alone
  * would be split: surfaces that touch everywhere would otherwise be split down to gamma. */
-static bool witness_is_likely(const impact *im, const pair *p, const distance_outcome *seen)
+static bool witness_is_likely(const impact *im, const pair *p, const distance_outcome *distances)
 {
     if (p->wait > 0) return false;
-    if (seen->side >= 0 && !(p->window.lo < p->window.hi)) return true;
+    if (distances->side >= 0 && !(p->window.lo < p->window.hi)) return true;
     const double remainder = pair_remainder(p);
     return TUNING_WITNESS_GAMMA * remainder <= resolved(im).scale ||
            TUNING_WITNESS_EXTENT * pair_extent(p) <= remainder ||
@@ -207,10 +208,10 @@ static bool witness_is_likely(const impact *im, const pair *p, const distance_ou
 /* Chooses a cut: first of the side that a distance chose; then in time if the motion bends much
  * within the window; else by spread. Where gamma is large and gamma - gamma_clear small, windows of
  * contact are long, and bending motion, not extent, makes their starts inexact. */
-static cut choose_cut(const impact *im, const pair *p, const distance_outcome *seen)
+static cut choose_cut(const impact *im, const pair *p, const distance_outcome *distances)
 {
     const double scale = resolved(im).scale;
-    const cut alone = pair_cut_alone(p, seen, scale);
+    const cut alone = pair_cut_alone(p, distances, scale);
     if (alone.side >= 0) return alone;
     const cut bend = scale < im->gamma ? cut_by_bend(p, scale) : CUT_NONE;
     if (bend.side >= 0) return bend;
@@ -219,56 +220,58 @@ static cut choose_cut(const impact *im, const pair *p, const distance_outcome *s
 
 /* Chooses a cut. A cut in time of which one half contains the whole window is made at once, without
  * another test, and the next one is chosen. */
-static imp_code choose_cut_after_free(impact *im, pair *p, const distance_outcome *seen, cut *c,
-                                      imp_error *error)
+static imp_code choose_cut_after_free(impact *im, pair *p, const distance_outcome *distances,
+                                      cut *c, imp_error *error)
 {
     imp_code code = IMP_SUCCESS;
     int half;
-    *c = choose_cut(im, p, seen);
+    *c = choose_cut(im, p, distances);
     while (code == IMP_SUCCESS && cut_is_free(c, p, &half)) {
         bool some;
         code = cut_take(c, half, candidate_pair_of(im, p), p, &some, im->stats, error);
         if (code == IMP_SUCCESS) code = pair_test_ask_for_nets(im, p, &im->stats->bytes, error);
-        if (code == IMP_SUCCESS) *c = choose_cut(im, p, seen);
+        if (code == IMP_SUCCESS) *c = choose_cut(im, p, distances);
     }
     return code;
 }
 
-static impact_state resolution_ends(impact *im, const pair *p)
+static impact_state end_by_resolution(impact *im, const pair *p)
 {
     explanation_count(im, p, IMP_OBSTACLE_RESOLUTION);
     return IMPACT_RESOLUTION;
 }
 
+/* The order matters: distances may separate the nodes; clusters are only split; a witness is
+ * sought at the window's start as popped, before distances cut it; then the pair is divided. */
 static imp_code expand_by_models(impact *im, pair *p, impact_state *state, imp_error *error)
 {
     const time_window before = p->window;
-    distance_outcome from_each;
+    distance_outcome distances;
     trial_rate *sliding = im->trials != NULL ? &im->trials[p->candidate_pair].sliding : NULL;
     imp_code code = pair_look(p, candidate_pair_of(im, p), im->gamma_clear, GOAL_CONTACT,
-                              im->proof != NULL, sliding, &from_each, error);
-    if (code == IMP_SUCCESS && from_each.is_apart) pair_note_test(im->proof, p, false);
-    if (code != IMP_SUCCESS || from_each.is_apart) return code;
+                              im->proof != NULL, sliding, &distances, error);
+    if (code == IMP_SUCCESS && distances.is_apart) pair_note_test(im->proof, p, false);
+    if (code != IMP_SUCCESS || distances.is_apart) return code;
     if (pair_has_cluster(p)) {
-        p->window = from_each.left;
+        p->window = distances.left;
         explanation_count(im, p, IMP_OBSTACLE_SIZE);
         return split(im, p, cut_by_spread(p, im->gamma, false), NULL, state, error);
     }
-    if (witness_is_likely(im, p, &from_each)) {
+    if (witness_is_likely(im, p, &distances)) {
         witness seen;
         code = find_witness(im, p, true, &seen, error);
         if (code != IMP_SUCCESS) return code;
         if (pair_spread_ends(im, p, &seen))
             *state = impact_contact(im, &seen);
         else if (precision_ends(im, p, 1))
-            *state = resolution_ends(im, p);
+            *state = end_by_resolution(im, p);
         if (*state != IMPACT_RUNNING) return IMP_SUCCESS;
         p->wait = TUNING_WITNESS_WAIT;
     } else if (p->wait > 0) {
         p->wait -= 1;
     }
-    p->slides = p->slides || from_each.side >= 0;
-    p->window = from_each.left; /* only now: other pairs may start earlier */
+    p->slides = p->slides || distances.side >= 0;
+    p->window = distances.left; /* only now: other pairs may start earlier */
     const imp_obstacle obstacle = explanation_if_asked(im, p);
     pair_note_look(im->proof, p, before);
     bool some;
@@ -279,10 +282,10 @@ static imp_code expand_by_models(impact *im, pair *p, impact_state *state, imp_e
     if (code == IMP_SUCCESS && TUNING_TINY * pair_extent(p) <= resolved(im).room)
         c = cut_in_time(p);
     else if (code == IMP_SUCCESS)
-        code = choose_cut_after_free(im, p, &from_each, &c, error);
+        code = choose_cut_after_free(im, p, &distances, &c, error);
     if (code == IMP_ERROR_PLUGIN) return code;
     if (code != IMP_SUCCESS) return *state = IMPACT_NO_MEMORY, IMP_SUCCESS;
-    if (c.side < 0) return *state = resolution_ends(im, p), IMP_SUCCESS;
+    if (c.side < 0) return *state = end_by_resolution(im, p), IMP_SUCCESS;
     explanation_count(im, p, obstacle);
     return split(im, p, c, &halves, state, error);
 }

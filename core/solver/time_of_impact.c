@@ -46,7 +46,7 @@ imp_code impact_add_candidate(impact *im, uint32_t index, impact_state *state, i
     return code;
 }
 
-/* --- Finer ------------------------------------------------------------------------------------ */
+/* --- Refining --------------------------------------------------------------------------------- */
 
 /* Tests the roots of both surfaces and returns the window that is left; it counts as one pair. */
 static time_window window_of_roots(impact *im, uint32_t index)
@@ -87,13 +87,13 @@ static const time_window *roots_of(impact *im, const pair *p)
     return whole;
 }
 
-/* After refining, cuts a pair by the new gamma_clear. False: it is pruned, or was pushed again with
- * a later start. The window of the roots bounds those of all descendants; without it, descendants
- * that were cut to an earlier start would each have to be tested up to the contact, and along a
- * curve of contacts all of them before any witness counts. (A sphere that meets a torus took 1467
- * pairs from 1e-2 to 1e-9, now 118; a new query takes 110.) If the roots' window does not help, the
- * pair itself is tested again, once. */
-static bool is_still_first(impact *im, pair *p)
+/* After refining, cuts the popped pair by the new gamma_clear. False: it is pruned, or was pushed
+ * again with a later start, and the step is over. The window of the roots bounds those of all
+ * descendants; without it, descendants that were cut to an earlier start would each have to be
+ * tested up to the contact, and along a curve of contacts all of them before any witness counts. (A
+ * sphere that meets a torus took 1467 pairs from 1e-2 to 1e-9, now 118; a new query takes 110.) If
+ * the roots' window does not help, the pair itself is tested again, once. */
+static bool recut_after_refining(impact *im, pair *p)
 {
     if (im->roots == NULL || im->baseline != IMP_BASELINE_NONE) return true;
     const time_window *whole = roots_of(im, p);
@@ -110,9 +110,9 @@ static bool is_still_first(impact *im, pair *p)
     return false;
 }
 
-/* Makes the nets of a pair that had only its first test; on failure the pair goes back on the
- * heap. */
-static imp_code ask_before_test(impact *im, pair *p, imp_error *error)
+/* Requests the nets of a popped pair whose first test did without; on failure the pair goes back on
+ * the heap. */
+static imp_code request_nets(impact *im, pair *p, imp_error *error)
 {
     if (!p->lacks_nets) return IMP_SUCCESS;
     const imp_code code = pair_test_ask_for_nets(im, p, &im->stats->bytes, error);
@@ -121,9 +121,9 @@ static imp_code ask_before_test(impact *im, pair *p, imp_error *error)
     return code;
 }
 
-/* Completes the test of a pair that had only its first test. False: it is pruned, or was pushed
- * again with a later start. */
-static bool is_first_when_tested(impact *im, pair *p)
+/* Completes the test of a popped pair that had only its first test. False: it is pruned, or was
+ * pushed again with a later start, and the step is over. */
+static bool complete_test(impact *im, pair *p)
 {
     if (!p->is_seen_only) return true;
     const bool near = pair_test_fully(im, p);
@@ -163,6 +163,7 @@ static bool is_settled(const impact *im)
            (im->heap.count == 0 || !(pair_heap_top(&im->heap)->key[0] < im->upper.t));
 }
 
+/* Ends the search with the known contact. */
 static impact_state settle(impact *im)
 {
     im->t_lower = im->upper.t;
@@ -195,6 +196,7 @@ static void postpone(impact *im, pair *p)
     pair_heap_push(&im->heap, &later);
 }
 
+/* Counts the pair, seeks an upper time from it at intervals, and ends its window at the horizon. */
 static imp_code seek_upper_time(impact *im, pair *p, imp_error *error)
 {
     bool sought;
@@ -208,8 +210,8 @@ static imp_code seek_upper_time(impact *im, pair *p, imp_error *error)
 
 /* --- One step --------------------------------------------------------------------------------- */
 
-/* Allocates the counts of trials. False: no memory. */
-static bool reserve_chances(impact *im)
+/* Allocates the counts of trials (pair_trials). False: no memory. */
+static bool reserve_trials(impact *im)
 {
     const size_t count = im->baseline == IMP_BASELINE_NONE ? im->candidate_pair_count : 0;
     if (im->trials != NULL || count == 0) return true;
@@ -218,7 +220,8 @@ static bool reserve_chances(impact *im)
     return im->trials != NULL;
 }
 
-/* Pairs that one step may push: the pair popped, two later parts of windows, one more half. */
+/* Most pairs that one step pushes, less the slot that its pop frees: two later parts of windows,
+ * and two halves, or one half and the popped pair again. */
 enum { ROOM_OF_STEP = 3 };
 
 /* Lemma. The popped pair's window starts first of all, and outside the windows on the heap no two
@@ -235,20 +238,19 @@ imp_code impact_advance(impact *im, impact_state *state, imp_error *error)
         return contradict(im, error);
     if (*state == IMPACT_CONTACT || im->heap.count == 0) return IMP_SUCCESS;
     *state = IMPACT_NO_MEMORY;
-    if (!pair_heap_reserve(&im->heap, ROOM_OF_STEP) || !reserve_chances(im))
-        return IMP_SUCCESS; /* including the popped pair's place */
+    if (!pair_heap_reserve(&im->heap, ROOM_OF_STEP) || !reserve_trials(im)) return IMP_SUCCESS;
     *state = IMPACT_RUNNING;
     pair p = pair_heap_pop(&im->heap);
     if (im->passed != NULL && im->passed[p.candidate_pair]) return IMP_SUCCESS;
     if (p.window.lo > im->t_lower) im->t_lower = p.window.lo;
-    imp_code code = ask_before_test(im, &p, error);
+    imp_code code = request_nets(im, &p, error);
     if (code != IMP_SUCCESS) return code;
-    if (!is_still_first(im, &p)) return IMP_SUCCESS;
+    if (!recut_after_refining(im, &p)) return IMP_SUCCESS;
     postpone(im, &p);
-    if (!is_first_when_tested(im, &p)) return IMP_SUCCESS;
+    if (!complete_test(im, &p)) return IMP_SUCCESS;
     code = seek_upper_time(im, &p, error);
-    pair followed = p;
-    if (code == IMP_SUCCESS) code = expand_pair(im, &followed, state, error);
+    pair expanded = p; /* p itself is pushed again if the search ends here */
+    if (code == IMP_SUCCESS) code = expand_pair(im, &expanded, state, error);
     if (code != IMP_SUCCESS || *state != IMPACT_RUNNING) pair_heap_push(&im->heap, &p);
     im->found_candidate = p.candidate_pair;
     return code;

@@ -5,8 +5,11 @@
 
 #include "core/solver/impact.h"
 
-/* The search for the earliest contact: pop, witness, prune, split, push
- * =====================================================================
+/* The search for the earliest contact: pop, test, witness, cut, push
+ * ==================================================================
+ * impact_advance pops a pair and completes its test; expand_pair.h seeks a witness, divides the
+ * pair, and tests and pushes its halves.
+ *
  * After every impact_advance: (a) no pair of points of the candidates is nearer than `gamma_clear`
  * at any time before t_lower; (b) with IMPACT_CONTACT the witness's gap_upper is at most gamma at
  * t_lower; (c) with IMPACT_CLEAR there are no such points at all. (a) holds for every answer. */

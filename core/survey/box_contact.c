@@ -19,7 +19,8 @@ static void prove_swept(imp_survey *s, survey_box *box, double t)
     range[0] = t, range[1] = hi;
 }
 
-/* Records that nothing comes near in the box before t, a time of its queries. */
+/* Records that nothing comes near in the box before t, a time of its queries, and cuts that part
+ * off the box. */
 static void prove_until(imp_survey *s, survey_box *box, double t, bool is_clear)
 {
     const double all = s->options.t_end - s->options.t_start;
@@ -47,17 +48,18 @@ static void note_contact(imp_survey *s, const survey_box *box, const imp_result 
 /* Runs the query at the middle without room for the shift: a contact there bounds the earliest from
  * above. Where the middle lies on the edge of the values that touch, gaps of about gamma last along
  * whole edges, and this search can take a thousand times the `pairs` of the one with room. Its
- * number of pairs is limited, since boxes beside this one have contacts that are easier to find. */
-enum { OWN_PAIRS_LEAST = 1024, OWN_PAIRS_TIMES = 8 };
+ * number of pairs is limited, since boxes beside this one have contacts that are easier to find:
+ * at that limit the box stays open, and nothing is concluded. */
+enum { ROOMLESS_PAIRS_LEAST = 1024, ROOMLESS_PAIRS_TIMES = 8 };
 
-static imp_code ask_own(imp_survey *s, const survey_box *box, imp_scene *scene, uint64_t pairs,
-                        box_rest *rest, imp_error *error)
+static imp_code ask_without_room(imp_survey *s, const survey_box *box, imp_scene *scene,
+                                 uint64_t pairs, box_rest *rest, imp_error *error)
 {
-    const double own[2] = {s->gamma, s->gamma_clear};
-    const uint64_t limit = OWN_PAIRS_LEAST + OWN_PAIRS_TIMES * pairs;
+    const double without_room[2] = {s->gamma, s->gamma_clear};
+    const uint64_t limit = ROOMLESS_PAIRS_LEAST + ROOMLESS_PAIRS_TIMES * pairs;
     imp_result found;
     const imp_code code =
-        box_run_contact(s, scene, box_times(s, box), own, limit, NULL, &found, error);
+        box_run_contact(s, scene, box_times(s, box), without_room, limit, NULL, &found, error);
     if (code != IMP_SUCCESS) return code;
     if (found.verdict == IMP_VERDICT_CONTACT) note_contact(s, box, &found);
     if (found.verdict != IMP_VERDICT_UNDECIDED) return IMP_SUCCESS;
@@ -92,7 +94,9 @@ static imp_code run_box(imp_survey *s, const survey_box *box, imp_scene *scene,
 }
 
 /* Runs the query with room for the shift. If its contact is too coarse to be one of the scene, runs
- * the query without that room. */
+ * the query without that room. is_fine: a contact at gamma is one of the scene in spite of the
+ * shift (survey_internal.h). Else any gamma above gamma_clear + shift is sound, since a contact
+ * then only ends the query. */
 static imp_code ask_queries(imp_survey *s, survey_box *box, imp_scene *scene,
                             const survey_view *view, box_rest *rest, imp_error *error)
 {
@@ -114,7 +118,7 @@ static imp_code ask_queries(imp_survey *s, survey_box *box, imp_scene *scene,
         if (is_stuck) s->reason = IMP_REASON_RESOLUTION;
         if (is_stuck || box_must_end(s, found.reason)) return *rest = BOX_WAITING, IMP_SUCCESS;
     }
-    if (!is_fine) return ask_own(s, box, scene, found.stats.pairs, rest, error);
+    if (!is_fine) return ask_without_room(s, box, scene, found.stats.pairs, rest, error);
     if (found.verdict == IMP_VERDICT_CONTACT) note_contact(s, box, &found);
     return IMP_SUCCESS;
 }

@@ -32,7 +32,7 @@ static void settle(imp_survey *s, const survey_box *box)
 }
 
 /* Returns the tolerance of the bracket at the middle. A bracket much narrower than the shift gains
- * nothing. */
+ * nothing; 1e-9 is the least tolerance that a query takes. Any other is sound. */
 static double tolerance_of(const imp_survey *s, double total)
 {
     const double own = 0.5 * s->asked.tolerance, least = own > 1e-9 ? own : 1e-9, most = 0.25;

@@ -21,9 +21,11 @@ typedef struct query_times {
     double start, end;
 } query_times;
 
-/* Whether the pair stands for all pairs of bodies that no parameter moves; whether its queries take
- * a parameter for their time. */
+/* Whether the pair stands for the rest of the pairs of bodies, which no parameter moves (not to be
+ * confused with box_rest). */
 bool box_is_rest(const survey_pair *pair);
+
+/* Whether queries of the pair take a parameter for their time. */
 bool box_is_swept(const survey_pair *pair);
 
 query_times box_times(const imp_survey *s, const survey_box *box);
@@ -41,7 +43,8 @@ imp_code box_run_distance(imp_survey *s, imp_scene *scene, query_times times, do
 
 bool box_is_limit(imp_reason reason);
 
-/* Records the reason if it is a limit, which ends the survey. */
+/* Records the reason if it is a limit, which ends the survey's step; that also answers a request to
+ * cancel. */
 bool box_must_end(imp_survey *s, imp_reason reason);
 
 /* Measures the box over the times in question: for a contact, those that are left. */

@@ -215,7 +215,8 @@ static bool is_decided(const imp_survey *s)
 }
 
 /* Reports the undecided boxes to the sink; an interrupted box is reported as it was before the
- * interruption. They stay in the queue, since a later step may decide them. */
+ * interruption. They stay in the queue, since a later step may decide them. What s->told keeps back
+ * of an interrupted box is put aside meanwhile: it is reported only if this process goes on. */
 static imp_code tell_rest(imp_survey *s, imp_error *error)
 {
     survey_told **kept = s->told;
@@ -242,7 +243,7 @@ static void conclude(imp_survey *s)
 FP_APART static imp_code step(imp_survey *s, uint64_t boxes, imp_error *error)
 {
     const uint64_t last = s->boxes + boxes;
-    survey_mark_drop(s); /* the results of an interrupted query are used within one process */
+    survey_mark_drop(s); /* this process keeps what the interrupted query proved */
     imp_code code = survey_flush(s, error);
     s->reason = IMP_REASON_RUNNING;
     while (code == IMP_SUCCESS && s->reason == IMP_REASON_RUNNING) {

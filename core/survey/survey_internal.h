@@ -39,8 +39,8 @@
  *
  * survey.c steps, survey_box.c and box_*.c decide one box (box_question.h), survey_measure.c bounds
  * how its parameters shift bodies, survey_pairs.c finds which bodies which parameters move,
- * survey_mark.c tells boxes, survey_state.c saves and loads, survey_answer.c and survey_cost.c
- * read. */
+ * survey_mark.c marks where the survey stands and hands boxes to the sink, survey_state.c saves
+ * and loads, survey_answer.c and survey_cost.c return results. */
 
 #define SURVEY_ALL_BODIES SIZE_MAX
 
@@ -64,9 +64,9 @@ typedef struct survey_incumbent {
     imp_clearance nearest;
 } survey_incumbent;
 
-/* Where the survey stood before the box that a limit interrupted in a query of its own. What such a
- * query has found out is kept for the answer, but a survey that goes on from a saved state
- * (imp_survey_save) asks the box again, so that its answer is that of one that was not
+/* Where the survey stood before the box being asked about; it is kept if a limit interrupts a query
+ * of that box. The answer uses what the interrupted query proved, but imp_survey_save writes the
+ * mark: a survey that goes on from it asks about the box again, and answers like one that was not
  * interrupted. */
 typedef struct survey_mark {
     survey_box *box; /* owned; NULL: none is interrupted */
@@ -75,7 +75,7 @@ typedef struct survey_mark {
     survey_incumbent best;
 } survey_mark;
 
-typedef struct survey_told survey_told; /* a box for the sink */
+typedef struct survey_told survey_told; /* a box to be handed to the sink */
 
 struct imp_survey {
     imp_scene *scene;
@@ -100,7 +100,7 @@ struct imp_survey {
     double key_asked;      /* of the box being asked about */
     survey_incumbent best;
     survey_mark mark;
-    survey_told **told; /* kept back until the box in question is done with */
+    survey_told **told; /* kept back until the box being asked about is done */
     size_t told_count, told_capacity;
     bool told_failed; /* no memory for one */
     double settled;   /* least distance proved of boxes that are done with; length */
@@ -121,15 +121,17 @@ imp_code survey_find_pairs(imp_survey *s, imp_error *error);
  * maps. */
 imp_code survey_choose_swept(imp_survey *s, imp_error *error);
 
-/* Bounds what the values of a box shift the bodies of its pair by. s->at becomes the box's middle,
- * with the ranges behind it. */
+/* How far the values of a box shift the two bodies of its pair, at most. */
 typedef struct survey_view {
     const double *lo, *hi; /* ranges of the parameters */
-    double total;          /* shift of all parameters and both bodies together; length */
-    double apart;          /* the bodies are so far apart, at least; length */
+    double total;          /* >= shift of all parameters and both bodies together; length */
+    double apart;          /* <= distance of the bodies at all values; length */
     double t_start, t_end; /* the times of its bounds */
     bool follows_time;
 } survey_view;
+
+/* Makes the view of a box over these times. s->at becomes the box's middle, followed by the ranges
+ * that the view points to; s->shift[0][k] becomes the share of parameter k. */
 imp_code survey_measure(imp_survey *s, const survey_box *box, size_t left_out, double t_start,
                         double t_end, survey_view *view, imp_error *error);
 

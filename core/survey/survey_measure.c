@@ -23,8 +23,7 @@ static void join_image(surface_image *all, const surface_image *one)
     all->follows_time = all->follows_time || one->follows_time;
 }
 
-/* A lower bound of the distance of points of two boxes: that along the axis where they are farthest
- * apart. */
+/* Returns a lower bound of the distance of two boxes: the widest gap along a coordinate. */
 static double apart_lower(const surface_image *a, const surface_image *b)
 {
     double most = 0;
@@ -61,9 +60,10 @@ static imp_code measure_body(imp_survey *s, size_t body, size_t left_out, const 
     return IMP_SUCCESS;
 }
 
-/* s->shift[0][k] becomes what parameter k shifts both bodies by; 0 for one that is swept. A sum of
- * two numbers, and of at most SCENE_PARAMETERS_MAX. */
+/* Roundings of the total: the sum over two bodies 1, over the parameters SCENE_PARAMETERS_MAX. */
 PAD_COVERS(64, 1 + SCENE_PARAMETERS_MAX);
+
+/* s->shift[0][k] becomes what parameter k shifts both bodies by; 0 for one that is swept. */
 imp_code survey_measure(imp_survey *s, const survey_box *box, size_t left_out, double t_start,
                         double t_end, survey_view *view, imp_error *error)
 {

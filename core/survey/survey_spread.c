@@ -73,14 +73,14 @@ imp_code survey_spread_make(imp_survey *s, const survey_box *box, const survey_v
                          .gamma = s->gamma,
                          .gamma_clear = s->gamma_clear};
     for (int side = 0; side < 2; ++side) {
-        body_spread of;
-        const bool room = make_room(s, pair->body[side], &of);
+        body_spread made;
+        const bool room = make_room(s, pair->body[side], &made);
         if (code == IMP_SUCCESS)
-            code = room ? fill_body(s, pair, pair->body[side], &values, &of, error)
+            code = room ? fill_body(s, pair, pair->body[side], &values, &made, error)
                         : error_set_memory(error);
-        to->of[side] = of.of;
-        to->maps[side] = of.maps;
-        to->known[side] = of.known;
+        to->of[side] = made.of;
+        to->maps[side] = made.maps;
+        to->known[side] = made.known;
     }
     to->is_known = code == IMP_SUCCESS && knows_any(s, pair->body[0], to->known[0]) &&
                    knows_any(s, pair->body[1], to->known[1]);
