@@ -201,8 +201,9 @@ bool separation_approach(const node *a, const node *b, double gamma_clear, time_
 }
 
 /* Roundings of boxes and balls: difference 1, square 1, sums 2, root, which halves them and counts
- * 1: (2 * 1 + 1 + 2) / 2 + 1 < 4; of balls one more, the last difference, whose rounding is below
- * that of its first term. A NaN is never apart. A sum that overflows is at least 2^1023. */
+ * 1: (2 * 1 + 1 + 2) / 2 + 1 < 4; one more, the last difference, whose rounding is below that of
+ * its first term. Squares that underflow change the root by less than ROOT_UNDERFLOW. A NaN is
+ * never apart. A sum that overflows is at least 2^1023. */
 PAD_COVERS(16, 4 + 1);
 PAD_COVERS(8,
            3 + 1 + 1); /* a node's radius: three errors, its other terms; the sum of both radii */
@@ -215,7 +216,9 @@ double separation_boxes_lower(const node *a, const node *b)
         const double gap = above > below ? above : below;
         if (gap > 0) sum += gap * gap;
     }
-    return sum < INFINITY ? padded_lower(sqrt(sum), 16) : 0x1p511;
+    if (!(sum < INFINITY)) return 0x1p511;
+    const double lower = padded_lower(sqrt(sum), 16) - ROOT_UNDERFLOW;
+    return lower > 0 ? lower : 0;
 }
 
 bool separation_of_boxes(const node *a, const node *b, double gamma_clear)

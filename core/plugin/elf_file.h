@@ -20,6 +20,7 @@ typedef struct elf_file {
     int fd;
     uint64_t size; /* bytes */
     Elf64_Ehdr header;
+    bool lacks_memory;                  /* a check was refused for lack of memory alone */
     uint64_t block_start, block_length; /* the block that was read last, since tables are small */
     unsigned char block[ELF_BLOCK];
 } elf_file;

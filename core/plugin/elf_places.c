@@ -25,8 +25,13 @@ static bool make_room(elf_object *o)
     elf_places *p = &o->places;
     if (p->count < p->room) return true;
     const size_t room = p->room == 0 ? 256 : 2 * p->room;
-    elf_place *grown = p->count < o->d.file->size ? realloc(p->place, room * sizeof *grown) : NULL;
-    if (grown == NULL) return elf_refuse(o, "its %zu relocations are too many", p->count);
+    if (p->count >= o->d.file->size)
+        return elf_refuse(o, "its %zu relocations are too many", p->count);
+    elf_place *grown = realloc(p->place, room * sizeof *grown);
+    if (grown == NULL) {
+        o->d.file->lacks_memory = true;
+        return elf_refuse(o, "there is no memory to check its relocations");
+    }
     p->place = grown, p->room = room;
     return true;
 }

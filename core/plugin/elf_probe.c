@@ -277,6 +277,7 @@ bool elf_probe_file(const char *path, bool all, elf_probe *probe)
     /* Without O_NONBLOCK, opening a pipe waits for a writer. */
     elf_file file = {.fd = open(path, O_RDONLY | O_CLOEXEC | O_NONBLOCK | O_NOCTTY)};
     bool passed = run_checks(&file, all, probe);
+    probe->lacks_memory = file.lacks_memory;
     if (file.fd >= 0) close(file.fd);
     return passed;
 }

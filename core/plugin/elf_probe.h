@@ -61,6 +61,7 @@ typedef struct elf_probe {
     elf_check check[PROBE_CHECKS];
     elf_identity file; /* once PROBE_FILE has passed */
 
+    bool lacks_memory;  /* the refusal tells nothing of the file */
     char sanitizer[32]; /* the runtime it needs, as libasan.so.8; empty: none */
 
     /* The note, once PROBE_NOTE has passed. */

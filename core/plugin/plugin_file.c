@@ -23,6 +23,7 @@ static void step_read(plugin_file *plugin, const char *path, load_outcome *out)
     if (elf_probe_file(path, false, &plugin->facts)) return;
     const elf_check *check = elf_probe_refusal(&plugin->facts);
     load_outcome_refuse(out, LOAD_READ, check->name, "%s", check->text);
+    if (plugin->facts.lacks_memory) out->code = error_set_memory(&out->error);
 }
 
 /* A sanitizer's runtime ends the process if it is not loaded before everything else. */

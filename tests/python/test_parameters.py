@@ -90,9 +90,8 @@ def test_wrong_values_and_clocks_are_named():
 def three(radius=0.25):
     """`arm` with a body that is far from both."""
     builder = impinge.Builder(time=(0, 1), parameters={"a": (0.25, 1.5), "s": (0, 0.5)})
-    shape = shape or {"type": "sphere", "radius": radius}
-    builder.body("rest").surface(center=[3, 0, 0], **shape)
-    moved = builder.body("hand").surface(center=[2, 0, 0], **shape)
+    builder.body("rest").surface("sphere", radius=radius, center=[3, 0, 0])
+    moved = builder.body("hand").surface("sphere", radius=radius, center=[2, 0, 0])
     moved.map("translate", velocity=[1, 0, 0], clock="s").map("rotate", axis=[0, 0, 1], rate=1, clock="a")
     builder.body("far").surface("sphere", center=[0, 0, 50])
     return builder.build()

@@ -123,6 +123,20 @@ START_TEST(boxes_and_balls_are_apart_only_beyond_the_clearance)
 }
 END_TEST
 
+/* Such squares are rounded to a multiple of 2^-1074, and their roots may come out larger. */
+START_TEST(gaps_whose_squares_underflow_are_no_reason_to_be_apart)
+{
+    node a, b;
+    memset(&a, 0, sizeof a);
+    memset(&b, 0, sizeof b);
+    a.bounded = b.bounded = true;
+    for (double gap = 0x1p-540; gap < 0x1p-500; gap *= 1.03) {
+        b.lo[0] = b.hi[0] = gap;
+        ck_assert(!(separation_boxes_lower(&a, &b) > gap));
+    }
+}
+END_TEST
+
 START_TEST(chances_are_taken_while_they_pay_and_now_and_then_else)
 {
     enum { WAIT = 7, TRIES = 8000 };
@@ -152,5 +166,6 @@ SUITE_MAIN("separation", the_moment_of_a_meeting_is_never_cut_away,
            no_glance_cuts_the_moment_of_a_meeting_away, a_glance_leaves_when_boxes_pass_each_other,
            a_window_shrinks_to_the_moment_of_contact,
            boxes_and_balls_are_apart_only_beyond_the_clearance,
+           gaps_whose_squares_underflow_are_no_reason_to_be_apart,
            chances_are_taken_while_they_pay_and_now_and_then_else,
            nodes_without_bounds_keep_their_window)
