@@ -182,6 +182,7 @@ START_TEST(a_builder_puts_its_parts_in_its_place_too)
     ck_assert_msg(imp_builder_map(b, body, "tolerance", &given, 1, &error) == IMP_SUCCESS, "%s",
                   error.text);
     imp_scene *scene = imp_builder_finish(b, &error);
+    imp_builder_free(b);
     ck_assert_msg(scene != NULL, "%s", error.text);
     imp_scene_parameter_info info;
     ck_assert_uint_eq(imp_scene_parameter_count(scene), 6);
