@@ -132,7 +132,7 @@ static bool check_thread(elf_object *o, const machine_kinds *kinds, const Elf64_
                       (unsigned long long)o->d.loads->thread_bytes);
 }
 
-/* Its value, of a machine whose kinds are told apart. */
+/* Checks the value that a relocation writes, on a machine whose relocation types are known. */
 static bool check_value(elf_object *o, const machine_kinds *kinds, const Elf64_Rela *r)
 {
     const uint64_t kind = ELF64_R_TYPE(r->r_info), symbol = ELF64_R_SYM(r->r_info),

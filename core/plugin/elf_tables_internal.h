@@ -54,7 +54,8 @@ bool elf_places_add(elf_object *o, uint64_t at, uint64_t length);
 /* Whether a word that is called when the object is loaded or unloaded has one of these bytes. */
 bool elf_places_are_called(const elf_object *o, uint64_t at, uint64_t length);
 
-/* Whether no byte is written twice and, if kinds are told apart, each called word is written. */
+/* Checks that no byte is written twice and, if the machine's relocation types are known
+ * (`is_exact`), that each word of the init and fini arrays is written. */
 bool elf_places_check(elf_object *o, bool is_exact);
 
 bool elf_symbols_check(elf_object *o);

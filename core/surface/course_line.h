@@ -16,8 +16,8 @@ typedef struct rigid_numbers {
 /* Sines below this give a line that is mostly rounding. */
 #define SINE_LEAST 0x1p-6
 
-/* Estimates the line about which the motion from m0 to m1 turns. Returns the sine of its angle, by
- * which good estimates are told; 0: there is none, and the line is not set. */
+/* Estimates the axis of the rotation from m0 to m1. Returns the sine of its angle: the larger, the
+ * more accurate is the axis. 0: there is no rotation, and the axis is not set. */
 double course_line_between(const rigid_numbers *m0, const rigid_numbers *m1, double center[3],
                            double axis[3]);
 

@@ -7,8 +7,8 @@
 #include "tools/cli/clearance.h"
 #include "tools/cli/explain.h"
 
-/* What `impinge clearance` has measured, and how it is told: slices as soon as they are there, the
- * rest at the end. */
+/* Results of `impinge clearance`, and their output: each slice is printed as soon as it is known,
+ * everything else at the end. */
 
 typedef struct measuring {
     const arguments *args;

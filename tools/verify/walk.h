@@ -10,7 +10,8 @@
 /* Entries from 4 on (core/CERTIFICATE.md). */
 enum { WALK_TIME = 4, WALK_AXIS, WALK_SAME, WALK_ALONE };
 
-/* Is told of the entries of trees in order, but of those whose surfaces have no formulas. */
+/* Callbacks for the entries of a certificate's trees, in order. Trees of surfaces without formulas
+ * are left out. */
 typedef struct watch {
     void *context;
     void (*begun)(void *context);                                    /* a tree */

@@ -141,7 +141,7 @@ static void tell_values(const imp_scene *scene, const double *values, const argu
            message_shown(text).text);
 }
 
-/* Refuses --sweep of what is no parameter. */
+/* Refuses --sweep of a name that is not a parameter of the scene. */
 static exit_status check_sweep(const imp_scene *scene, const arguments *args)
 {
     const option_value *over = arguments_option(args, "sweep");
