@@ -147,6 +147,7 @@ tools_cli = \
     tools/cli/result_text.c \
     tools/cli/run_options.c tools/cli/run_options.h \
     tools/cli/scene_info.c tools/cli/scene_info.h \
+    tools/cli/scene_values.c tools/cli/scene_values.h \
     tools/cli/survey.c tools/cli/survey.h \
     tools/cli/survey_answer.c tools/cli/survey_answer.h \
     tools/cli/survey_boxes.c tools/cli/survey_boxes.h \

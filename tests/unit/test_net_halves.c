@@ -21,6 +21,17 @@ static void draw_excluded(uint64_t *state, const net_half *halves, int count, do
         for (int j = 0; j < 2; ++j) p[side][j] = random_between(state, lo[side][j], hi[side][j]);
 }
 
+/* Draws b, which is bicubic, and a, which is so in half of all cases and else of any degree. */
+static void draw_beside_bicubic(uint64_t *state, netted *a, netted *b)
+{
+    const bool bicubic = random_bits(state) % 2;
+    draw_net(state, bicubic ? 3 : (uint32_t)(random_bits(state) % 4),
+             bicubic ? 3 : (uint32_t)(random_bits(state) % 4), 1, a);
+    draw_net(state, 3, 3, 1, b);
+    take(a, zero, one);
+    take(b, zero, one);
+}
+
 START_TEST(nothing_of_a_half_that_an_axis_excludes_is_near)
 {
     uint64_t state = suite_seed();
@@ -28,12 +39,7 @@ START_TEST(nothing_of_a_half_that_an_axis_excludes_is_near)
     for (int k = 0; k < suite_times(3000); ++k) {
         netted a, b;
         const netted *const both[2] = {&a, &b};
-        const bool bicubic = random_bits(&state) % 2;
-        draw_net(&state, bicubic ? 3 : (uint32_t)(random_bits(&state) % 4),
-                 bicubic ? 3 : (uint32_t)(random_bits(&state) % 4), 1, &a);
-        draw_net(&state, 3, 3, 1, &b);
-        take(&a, zero, one);
-        take(&b, zero, one);
+        draw_beside_bicubic(&state, &a, &b);
         vec3 axis = {{random_between(&state, -1, 1), random_between(&state, -1, 1), 1}};
         const double start = random_fraction(&state);
         const time_window w = {start, start + (1 - start) * random_power(&state, -10, 0)};
@@ -117,12 +123,7 @@ START_TEST(nothing_of_a_half_is_near_outside_of_its_window)
     for (int k = 0; k < suite_times(6000); ++k) {
         netted a, b;
         const netted *const both[2] = {&a, &b};
-        const bool bicubic = random_bits(&state) % 2;
-        draw_net(&state, bicubic ? 3 : (uint32_t)(random_bits(&state) % 4),
-                 bicubic ? 3 : (uint32_t)(random_bits(&state) % 4), 1, &a);
-        draw_net(&state, 3, 3, 1, &b);
-        take(&a, zero, one);
-        take(&b, zero, one);
+        draw_beside_bicubic(&state, &a, &b);
         vec3 axis = {{random_between(&state, -1, 1), random_between(&state, -1, 1), 1}};
         const double gamma_clear = random_power(&state, -6, 1);
         const time_window w = {0, random_power(&state, -6, 0)}, longer = {0, 2 * w.hi};

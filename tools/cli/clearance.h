@@ -37,6 +37,9 @@ imp_clearance clearance_table_get(const clearance_table *table, size_t k);
 /* Returns the advice about the answer's bodies; NULL: there is none. */
 const char *clearance_table_advice(const clearance_table *table, const imp_clearance *answer);
 
+/* Adds the counts of one search to those of all; peaks are those of the largest. */
+void clearance_add_stats(imp_stats *all, const imp_stats *s);
+
 /* --each: an answer for each pair of bodies that do not ignore each other, by several threads. */
 typedef struct clearance_each {
     const imp_scene *scene;

@@ -25,7 +25,7 @@ typedef struct filling {
     _Atomic imp_reason ended; /* why parts were left out; NONE: none was */
 } filling;
 
-static void add_stats(imp_stats *all, const imp_stats *s)
+void clearance_add_stats(imp_stats *all, const imp_stats *s)
 {
     all->seconds += s->seconds;
     all->pairs += s->pairs;
@@ -75,7 +75,7 @@ static void take(void *context, size_t index, imp_query *part)
                        : NULL;
     pthread_mutex_lock(&f->lock);
     if (advice != NULL) add_advice(f, &answer, advice);
-    add_stats(&f->found->stats, &answer.stats);
+    clearance_add_stats(&f->found->stats, &answer.stats);
     if (is_beyond)
         f->found->beyond += 1;
     else if (add(f, &answer))
@@ -218,7 +218,7 @@ imp_code clearance_each_run(const clearance_each *of, clearance_answers *found, 
     if (code != IMP_SUCCESS) return code;
     code = parts_run(&plan, error);
     const imp_stats whole = imp_query_result(of->query).stats;
-    add_stats(&found->stats, &whole);
+    clearance_add_stats(&found->stats, &whole);
     if (code == IMP_SUCCESS) code = error->code = conclude(&f, plan.count);
     if (found->advice_count > 0)
         qsort(found->advice, found->advice_count, sizeof *found->advice, by_bodies);

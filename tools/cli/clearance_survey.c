@@ -15,16 +15,6 @@
 
 /* clearance --each and --profile of a scene with parameters (survey_parts.h). */
 
-static void add_stats(imp_stats *all, const imp_stats *s)
-{
-    all->seconds += s->seconds;
-    all->pairs += s->pairs;
-    all->nodes += s->nodes;
-    all->witness_searches += s->witness_searches;
-    if (s->peak_heap > all->peak_heap) all->peak_heap = s->peak_heap;
-    if (s->bytes > all->bytes) all->bytes = s->bytes;
-}
-
 /* Returns the answer that stands for all that were not asked about, or are beyond --within. */
 static imp_clearance rest_of(const measuring *m, bool is_beyond)
 {
@@ -51,7 +41,7 @@ static imp_clearance *list_answers(measuring *m, const survey_parts *p, bool *ha
             m->not_examined += 1;
             continue;
         }
-        add_stats(&m->stats, &c->stats);
+        clearance_add_stats(&m->stats, &c->stats);
         if (m->asked.within > 0 && c->lower >= m->asked.within)
             m->beyond += 1;
         else
@@ -101,7 +91,7 @@ static exit_status measure_slice(measuring *m, survey_parts *p, size_t k)
     imp_error error = {0};
     if (survey_parts_ask(p, k, &error) != IMP_SUCCESS)
         return complain_of(&error, m->args->verb->name);
-    add_stats(&m->stats, &p->nearest[k].stats);
+    clearance_add_stats(&m->stats, &p->nearest[k].stats);
     m->table.count += 1;
     const exit_status status = clearance_tell_slice(m);
     return status == EXIT_ANSWERED ? output_flush(m->args->verb->name) : status;

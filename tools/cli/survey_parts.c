@@ -13,6 +13,7 @@
 #include "core/common/spelling.h"
 #include "tools/cli/interrupt.h"
 #include "tools/cli/query.h"
+#include "tools/cli/scene_values.h"
 #include "tools/cli/verbs.h"
 
 /* --- Their list ------------------------------------------------------------------------------- */
@@ -73,12 +74,11 @@ static exit_status find_over(survey_parts *p)
     const option_value *over = arguments_option(p->args, "over");
     imp_scene_parameter_info info;
     if (over == NULL) return EXIT_ANSWERED;
+    p->over = scene_values_find(p->scene, over->text, strlen(over->text));
+    if (imp_scene_parameter(p->scene, p->over, &info)) return EXIT_ANSWERED;
     spelling_search near = {.wanted = over->text};
-    for (size_t k = 0; imp_scene_parameter(p->scene, k, &info); ++k) {
+    for (size_t k = 0; imp_scene_parameter(p->scene, k, &info); ++k)
         spelling_offer(&near, info.name);
-        if (strcmp(info.name, over->text) == 0) p->over = k;
-    }
-    if (p->over != SIZE_MAX) return EXIT_ANSWERED;
     return complain(EXIT_USAGE, p->args->verb->name,
                     "--over: the scene has no parameter '%.80s'%s%.80s%s",
                     message_shown(over->text).text, near.best != NULL ? "; did you mean '" : "",

@@ -10,6 +10,7 @@
 #include "tools/cli/output.h"
 #include "tools/cli/query.h"
 #include "tools/cli/reading_limit.h"
+#include "tools/cli/scene_values.h"
 #include "tools/cli/survey.h"
 #include "tools/cli/verbs.h"
 
@@ -79,13 +80,9 @@ static void tell_failure(matrix *m, const char *a, const char *b, const char *wh
 static imp_code solve_middle(imp_scene *scene, const arguments *args, imp_result *result,
                              imp_error *error)
 {
-    const size_t count = imp_scene_parameter_count(scene);
-    double *values = calloc(count + 1, sizeof *values);
+    double *values = calloc(imp_scene_parameter_count(scene) + 1, sizeof *values);
     if (values == NULL) return error->code = IMP_ERROR_MEMORY;
-    for (size_t k = 0; k < count; ++k) {
-        imp_scene_parameter_info info;
-        if (imp_scene_parameter(scene, k, &info)) values[k] = 0.5 * info.lo + 0.5 * info.hi;
-    }
+    scene_values_middle(scene, values);
     imp_scene *posed = imp_scene_at(scene, values, error);
     const imp_code code =
         posed != NULL ? query_solve(posed, args, result, NULL, error) : error->code;

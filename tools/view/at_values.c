@@ -5,11 +5,13 @@
 #include "tools/view/at_values.h"
 
 #include <math.h>
+#include <stdint.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 
 #include "core/common/spelling.h"
+#include "tools/cli/scene_values.h"
 #include "tools/cli/verbs.h"
 
 /* --- The parts of --at ------------------------------------------------------------------------ */
@@ -65,15 +67,11 @@ static exit_status refuse_name(const imp_scene *scene, const at_part *part, cons
                     "--at: the scene has no parameter '%s'; `impinge info` lists them", name);
 }
 
-/* Finds the parameter of that name. The count of parameters: there is none. */
-static size_t find_parameter(const imp_scene *scene, const char *name, size_t length)
+/* Returns the index of the parameter of --sweep; SIZE_MAX: it is not given. */
+static size_t swept(const imp_scene *scene, const arguments *args)
 {
-    imp_scene_parameter_info info;
-    size_t k = 0;
-    while (imp_scene_parameter(scene, k, &info) &&
-           !(strlen(info.name) == length && memcmp(info.name, name, length) == 0))
-        ++k;
-    return k;
+    const option_value *over = arguments_option(args, "sweep");
+    return over != NULL ? scene_values_find(scene, over->text, strlen(over->text)) : SIZE_MAX;
 }
 
 /* --at time=T, with --sweep; the name belongs to no parameter. */
@@ -92,7 +90,7 @@ static exit_status set_value(const imp_scene *scene, const at_part *part, double
     const double value = strtod(part->equals + 1, &end);
     const bool is_number = end != part->equals + 1 && end == part->at + part->length;
     const size_t count = imp_scene_parameter_count(scene);
-    const size_t k = find_parameter(scene, part->at, length);
+    const size_t k = scene_values_find(scene, part->at, length);
     if (is_number && is_time(part, args)) return values[count] = value, EXIT_ANSWERED;
     if (!imp_scene_parameter(scene, k, &info)) return refuse_name(scene, part, args);
     if (!is_number || !(value >= info.lo && value <= info.hi))
@@ -119,21 +117,22 @@ static void usual_values(const imp_scene *scene, const json_t *known, double *va
 {
     imp_scene_parameter_info info;
     values[imp_scene_parameter_count(scene)] = imp_options_default(scene).t_start;
+    scene_values_middle(scene, values);
     for (size_t k = 0; imp_scene_parameter(scene, k, &info); ++k) {
         const json_t *one = json_object_get(known, info.name);
         const double value = json_is_number(one) ? json_number_value(one) : NAN;
-        values[k] = value >= info.lo && value <= info.hi ? value : 0.5 * info.lo + 0.5 * info.hi;
+        if (value >= info.lo && value <= info.hi) values[k] = value;
     }
 }
 
 static void tell_values(const imp_scene *scene, const double *values, const arguments *args)
 {
     imp_scene_parameter_info info;
-    const option_value *over = arguments_option(args, "sweep");
+    const size_t over = swept(scene, args);
     char text[512] = "";
     size_t used = 0;
     for (size_t k = 0; imp_scene_parameter(scene, k, &info) && used < sizeof text; ++k)
-        if (over == NULL || strcmp(over->text, info.name) != 0)
+        if (k != over)
             used += (size_t)snprintf(text + used, sizeof text - used, "%s%s = %.6g",
                                      used > 0 ? ", " : "", info.name, values[k]);
     if (used == 0) return;
@@ -145,9 +144,7 @@ static void tell_values(const imp_scene *scene, const double *values, const argu
 static exit_status check_sweep(const imp_scene *scene, const arguments *args)
 {
     const option_value *over = arguments_option(args, "sweep");
-    if (over == NULL ||
-        find_parameter(scene, over->text, strlen(over->text)) < imp_scene_parameter_count(scene))
-        return EXIT_ANSWERED;
+    if (over == NULL || swept(scene, args) < imp_scene_parameter_count(scene)) return EXIT_ANSWERED;
     return complain(EXIT_USAGE, args->verb->name,
                     "--sweep: the scene has no parameter '%.80s'; `impinge info` lists them",
                     message_shown(over->text).text);
@@ -156,15 +153,11 @@ static exit_status check_sweep(const imp_scene *scene, const arguments *args)
 /* Returns the scene at the values, or the one that sweeps a parameter. NULL: it complained. */
 static imp_scene *pose(const imp_scene *scene, const double *values, const arguments *args)
 {
-    const option_value *over = arguments_option(args, "sweep");
-    const size_t count = imp_scene_parameter_count(scene);
+    const size_t over = swept(scene, args), count = imp_scene_parameter_count(scene);
     imp_error error = {0};
-    imp_scene *posed;
-    if (over == NULL)
-        posed = imp_scene_at(scene, values, &error);
-    else
-        posed = imp_scene_sweep(scene, find_parameter(scene, over->text, strlen(over->text)),
-                                values, values[count], &error);
+    imp_scene *posed = over == SIZE_MAX
+                           ? imp_scene_at(scene, values, &error)
+                           : imp_scene_sweep(scene, over, values, values[count], &error);
     if (posed == NULL) complain_of(&error, args->verb->name);
     return posed;
 }
