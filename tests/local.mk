@@ -9,6 +9,7 @@ check_suites = \
     tests/fuzz/csv \
     tests/fuzz/elf \
     tests/fuzz/formula \
+    tests/fuzz/json \
     tests/fuzz/mesh \
     tests/fuzz/picture \
     tests/fuzz/pipeline \
@@ -541,6 +542,7 @@ noinst_HEADERS += \
     tests/support/oracle.h \
     tests/support/query_helpers.h \
     tests/support/rough_sheets.h \
+    tests/support/same_json.h \
     tests/support/sandbox.h \
     tests/support/scene_text.h \
     tests/support/scene_variants.h \
@@ -565,6 +567,8 @@ tests_fuzz_certificate_CPPFLAGS = $(AM_CPPFLAGS) -DPROOF_DOUBLE
 tests_fuzz_certificate_LDADD = tools/libverify.la $(LDADD)
 tests_fuzz_csv_SOURCES = tests/fuzz/csv.c tests/fuzz/replay.c
 tests_fuzz_csv_LDADD = plugins/libcommon.la $(LDADD)
+tests_fuzz_json_SOURCES = tests/fuzz/json.c tests/fuzz/replay.c tests/support/same_json.h
+tests_fuzz_json_LDADD = $(LDADD) $(JANSSON_LIBS)
 tests_fuzz_mesh_SOURCES = tests/fuzz/mesh.c tests/fuzz/replay.c
 tests_fuzz_mesh_LDADD = plugins/libsubdivision.la plugins/libpatch.la plugins/libmesh.la $(LDADD)
 tests_fuzz_picture_SOURCES = tests/fuzz/picture.c tests/fuzz/replay.c
@@ -682,6 +686,13 @@ EXTRA_DIST += \
     tests/fuzz/formula.d/steep_power.txt \
     tests/fuzz/formula.d/zero.txt \
     tests/fuzz/formula.dict \
+    tests/fuzz/json.d/nested \
+    tests/fuzz/json.d/numbers \
+    tests/fuzz/json.d/refused \
+    tests/fuzz/json.d/scene \
+    tests/fuzz/json.d/strings \
+    tests/fuzz/json.d/twice \
+    tests/fuzz/json.dict \
     tests/fuzz/mesh.d/empty \
     tests/fuzz/mesh.d/glb_plain \
     tests/fuzz/mesh.d/gltf_cycle \

@@ -2,50 +2,17 @@
  * SPDX-License-Identifier: Apache-2.0 */
 #include <config.h>
 
-#include <math.h>
 #include <string.h>
 
 #include "core/plugin/parameters.h"
 #include "core/reader/json_quick.h"
+#include "tests/support/same_json.h"
 #include "tests/support/suite.h"
 
 /* What the quick reader makes of a text is what jansson makes of it; what jansson refuses it leaves
  * to jansson. */
 
 static reading_budget budget;
-
-/* --- Comparing -------------------------------------------------------------------------------- */
-
-static bool is_same(const json_t *x, const json_t *y);
-
-static bool are_same_objects(const json_t *x, const json_t *y)
-{
-    void *of_x = json_object_iter((json_t *)(uintptr_t)x);
-    void *of_y = json_object_iter((json_t *)(uintptr_t)y);
-    while (of_x != NULL && of_y != NULL) { /* in the same order */
-        if (strcmp(json_object_iter_key(of_x), json_object_iter_key(of_y)) != 0) return false;
-        if (!is_same(json_object_iter_value(of_x), json_object_iter_value(of_y))) return false;
-        of_x = json_object_iter_next((json_t *)(uintptr_t)x, of_x);
-        of_y = json_object_iter_next((json_t *)(uintptr_t)y, of_y);
-    }
-    return of_x == NULL && of_y == NULL;
-}
-
-/* Numbers bit for bit. */
-static bool is_same(const json_t *x, const json_t *y)
-{
-    if (json_typeof(x) != json_typeof(y)) return false;
-    if (json_is_object(x)) return are_same_objects(x, y);
-    if (json_is_real(x)) {
-        const double a = json_real_value(x), b = json_real_value(y);
-        return a == b && !signbit(a) == !signbit(b);
-    }
-    if (!json_is_array(x)) return json_equal(x, y);
-    if (json_array_size(x) != json_array_size(y)) return false;
-    for (size_t k = 0; k < json_array_size(x); ++k)
-        if (!is_same(json_array_get(x, k), json_array_get(y, k))) return false;
-    return true;
-}
 
 /* Returns whether it was read quickly. */
 static bool check_text(const char *text, size_t length)
@@ -58,7 +25,7 @@ static bool check_text(const char *text, size_t length)
     ck_assert_msg((found != NULL) == (end == JSON_QUICK_DONE), "%.*s", (int)length, text);
     ck_assert(end == JSON_QUICK_DONE || end == JSON_QUICK_LEFT);
     ck_assert(end == JSON_QUICK_DONE || budget.bytes == before);
-    ck_assert_msg(found == NULL || (expected != NULL && is_same(found, expected)), "%.*s",
+    ck_assert_msg(found == NULL || (expected != NULL && same_json(found, expected)), "%.*s",
                   (int)length, text);
     json_decref(found);
     json_decref(expected);
