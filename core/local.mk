@@ -243,7 +243,7 @@ core_survey = \
     core/survey/survey_refine.c \
     core/survey/survey_box.c \
     core/survey/survey_internal.h \
-    core/survey/survey_mark.c \
+    core/survey/survey_records.c \
     core/survey/survey_measure.c \
     core/survey/survey_pairs.c \
     core/survey/survey_spread.c \

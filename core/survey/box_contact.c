@@ -9,13 +9,14 @@
  * box. */
 static void prove_swept(imp_survey *s, survey_box *box, double t)
 {
-    double *range = box->range + 2 * s->pairs[box->pair].swept;
+    double *range = box->range + 2 * s->pairs.at[box->pair].swept;
     const double lo = range[0], hi = range[1];
     const double part = t < hi ? box->share * ((t - lo) / (hi - lo)) : box->share;
     survey_add_proved(s, box, part);
     box->share -= part;
     range[1] = t;
-    survey_tell(s, box, s->options.t_start, s->options.t_end, IMP_VERDICT_CLEAR, s->gamma_clear);
+    survey_record_box(s, box, s->question.options.t_start, s->question.options.t_end,
+                      IMP_VERDICT_CLEAR, s->question.gamma_clear);
     range[0] = t, range[1] = hi;
 }
 
@@ -23,26 +24,26 @@ static void prove_swept(imp_survey *s, survey_box *box, double t)
  * off the box. */
 static void prove_until(imp_survey *s, survey_box *box, double t, bool is_clear)
 {
-    const double all = s->options.t_end - s->options.t_start;
+    const double all = s->question.options.t_end - s->question.options.t_start;
     if (!(t > box_times(s, box).start) && !is_clear) return;
-    if (box_is_swept(&s->pairs[box->pair])) {
+    if (box_is_swept(&s->pairs.at[box->pair])) {
         prove_swept(s, box, t);
         return;
     }
     survey_add_proved(s, box, all > 0 ? box->share * ((t - box->key) / all) : box->share);
-    survey_tell(s, box, box->key, t, IMP_VERDICT_CLEAR, s->gamma_clear);
+    survey_record_box(s, box, box->key, t, IMP_VERDICT_CLEAR, s->question.gamma_clear);
     box->key = t;
 }
 
 static void note_contact(imp_survey *s, const survey_box *box, const imp_result *found)
 {
-    const double t = box_is_swept(&s->pairs[box->pair]) ? s->options.t_start : found->t;
+    const double t = box_is_swept(&s->pairs.at[box->pair]) ? s->question.options.t_start : found->t;
     if (!(t < s->best.t)) return;
     s->best.t = t;
     s->best.contact = *found;
     box_keep_values(s, box, &s->best.contact.t);
-    box_name_side(&s->pairs[box->pair], &s->best.contact.a, &s->best.contact.b);
-    if (s->how.any) s->reason = IMP_REASON_NONE;
+    box_name_side(&s->pairs.at[box->pair], &s->best.contact.a, &s->best.contact.b);
+    if (s->question.how.any) s->reason = IMP_REASON_NONE;
 }
 
 /* Runs the query at the middle without room for the shift: a contact there bounds the earliest from
@@ -53,9 +54,9 @@ static void note_contact(imp_survey *s, const survey_box *box, const imp_result 
 enum { ROOMLESS_PAIRS_LEAST = 1024, ROOMLESS_PAIRS_TIMES = 8 };
 
 static imp_code ask_without_room(imp_survey *s, const survey_box *box, imp_scene *scene,
-                                 uint64_t pairs, box_rest *rest, imp_error *error)
+                                 uint64_t pairs, box_state *state, imp_error *error)
 {
-    const double without_room[2] = {s->gamma, s->gamma_clear};
+    const double without_room[2] = {s->question.gamma, s->question.gamma_clear};
     const uint64_t limit = ROOMLESS_PAIRS_LEAST + ROOMLESS_PAIRS_TIMES * pairs;
     imp_result found;
     const imp_code code =
@@ -64,28 +65,28 @@ static imp_code ask_without_room(imp_survey *s, const survey_box *box, imp_scene
     if (found.verdict == IMP_VERDICT_CONTACT) note_contact(s, box, &found);
     if (found.verdict != IMP_VERDICT_UNDECIDED) return IMP_SUCCESS;
     if (found.reason == IMP_REASON_PAIRS && found.stats.pairs >= limit) return IMP_SUCCESS;
-    if (box_must_end(s, found.reason)) *rest = BOX_WAITING;
+    if (box_must_end(s, found.reason)) *state = BOX_WAITING;
     return IMP_SUCCESS;
 }
 
 /* Reports the times after a known contact to the sink as undecided: they are not searched. */
-static void tell_later(imp_survey *s, const survey_box *box)
+static void record_later(imp_survey *s, const survey_box *box)
 {
-    if (box_is_swept(&s->pairs[box->pair]) || !(box->key < s->options.t_end)) return;
-    survey_tell(s, box, box->key, s->options.t_end, IMP_VERDICT_UNDECIDED, 0);
+    if (box_is_swept(&s->pairs.at[box->pair]) || !(box->key < s->question.options.t_end)) return;
+    survey_record_box(s, box, box->key, s->question.options.t_end, IMP_VERDICT_UNDECIDED, 0);
 }
 
 /* Runs the query with room for the shift. Unless a contact must be one of the scene (is_fine),
  * pairs are also excluded by the directions in which the values move the bodies (pair_spread.h). */
 static imp_code run_box(imp_survey *s, const survey_box *box, imp_scene *scene,
-                        const survey_view *view, const double gamma[2], bool is_fine,
+                        const box_bounds *bounds, const double gamma[2], bool is_fine,
                         imp_result *found, imp_error *error)
 {
     const query_times times = box_times(s, box);
     query_spread spread;
-    if (is_fine || box_is_rest(&s->pairs[box->pair]))
+    if (is_fine || box_is_unmoved(&s->pairs.at[box->pair]))
         return box_run_contact(s, scene, times, gamma, 0, NULL, found, error);
-    imp_code code = survey_spread_make(s, box, view, &spread, error);
+    imp_code code = survey_spread_make(s, box, bounds, &spread, error);
     if (code == IMP_SUCCESS)
         code = box_run_contact(s, scene, times, gamma, 0, spread.is_known ? &spread : NULL, found,
                                error);
@@ -98,56 +99,58 @@ static imp_code run_box(imp_survey *s, const survey_box *box, imp_scene *scene,
  * shift (survey_internal.h). Else any gamma above gamma_clear + shift is sound, since a contact
  * then only ends the query. */
 static imp_code ask_queries(imp_survey *s, survey_box *box, imp_scene *scene,
-                            const survey_view *view, box_rest *rest, imp_error *error)
+                            const box_bounds *bounds, box_state *state, imp_error *error)
 {
-    const double total = view->total;
-    const double between = s->gamma - s->gamma_clear;
+    const double total = bounds->total;
+    const double between = s->question.gamma - s->question.gamma_clear;
     const bool is_fine = total <= 0.5 * between;
-    const double clear = total > 0 ? sum_upper(s->gamma_clear, total) : s->gamma_clear;
-    const double coarse[2] = {is_fine ? s->gamma : clear + 0.25 * (total + between), clear};
+    const double clear =
+        total > 0 ? sum_upper(s->question.gamma_clear, total) : s->question.gamma_clear;
+    const double coarse[2] = {is_fine ? s->question.gamma : clear + 0.25 * (total + between),
+                              clear};
     imp_result found;
-    imp_code code = run_box(s, box, scene, view, coarse, is_fine, &found, error);
+    imp_code code = run_box(s, box, scene, bounds, coarse, is_fine, &found, error);
     if (code != IMP_SUCCESS) return code;
     prove_until(s, box, found.t_lower, found.verdict == IMP_VERDICT_CLEAR);
     if (found.verdict == IMP_VERDICT_CLEAR) {
-        tell_later(s, box);
-        return *rest = BOX_DONE, IMP_SUCCESS;
+        record_later(s, box);
+        return *state = BOX_DONE, IMP_SUCCESS;
     }
     if (found.verdict == IMP_VERDICT_UNDECIDED) {
         const bool is_stuck = is_fine && found.reason == IMP_REASON_RESOLUTION;
         if (is_stuck) s->reason = IMP_REASON_RESOLUTION;
-        if (is_stuck || box_must_end(s, found.reason)) return *rest = BOX_WAITING, IMP_SUCCESS;
+        if (is_stuck || box_must_end(s, found.reason)) return *state = BOX_WAITING, IMP_SUCCESS;
     }
-    if (!is_fine) return ask_without_room(s, box, scene, found.stats.pairs, rest, error);
+    if (!is_fine) return ask_without_room(s, box, scene, found.stats.pairs, state, error);
     if (found.verdict == IMP_VERDICT_CONTACT) note_contact(s, box, &found);
     return IMP_SUCCESS;
 }
 
-imp_code box_ask_contact(imp_survey *s, survey_box *box, box_rest *rest, imp_error *error)
+imp_code box_ask_contact(imp_survey *s, survey_box *box, box_state *state, imp_error *error)
 {
-    survey_view view;
+    box_bounds bounds;
     imp_scene *scene;
     bool is_split;
-    imp_code code = box_measure(s, box, &view, error);
+    imp_code code = box_measure(s, box, &bounds, error);
     if (code != IMP_SUCCESS) return code;
-    if (view.apart > s->gamma_clear) {
+    if (bounds.apart > s->question.gamma_clear) {
         prove_until(s, box, box_times(s, box).end, true);
-        tell_later(s, box);
-        return *rest = BOX_DONE, IMP_SUCCESS;
+        record_later(s, box);
+        return *state = BOX_DONE, IMP_SUCCESS;
     }
-    if (view.total < INFINITY) {
+    if (bounds.total < INFINITY) {
         code = box_scene(s, box, &scene, error);
         if (code != IMP_SUCCESS) return code;
-        code = ask_queries(s, box, scene, &view, rest, error);
+        code = ask_queries(s, box, scene, &bounds, state, error);
         imp_scene_free(scene);
-        if (code != IMP_SUCCESS || *rest != BOX_OPEN) return code;
+        if (code != IMP_SUCCESS || *state != BOX_OPEN) return code;
     }
     if (s->best.t <= box->key) {
-        survey_tell(s, box, box->key, s->options.t_end, IMP_VERDICT_CONTACT, 0);
-        return *rest = BOX_DONE, IMP_SUCCESS;
+        survey_record_box(s, box, box->key, s->question.options.t_end, IMP_VERDICT_CONTACT, 0);
+        return *state = BOX_DONE, IMP_SUCCESS;
     }
-    code = box_split(s, box, &view, &is_split, error);
-    *rest = is_split ? BOX_DONE : BOX_WAITING;
+    code = box_split(s, box, &bounds, &is_split, error);
+    *state = is_split ? BOX_DONE : BOX_WAITING;
     if (!is_split) s->reason = IMP_REASON_RESOLUTION;
     return code;
 }

@@ -14,9 +14,9 @@
 static imp_code ignore_moved(const imp_survey *s, imp_scene *scene)
 {
     imp_code code = scene_copy_relations(s->scene, scene);
-    for (size_t k = 0; k < s->pair_count && code == IMP_SUCCESS; ++k) {
-        const size_t *body = s->pairs[k].body;
-        if (!box_is_rest(&s->pairs[k]))
+    for (size_t k = 0; k < s->pairs.count && code == IMP_SUCCESS; ++k) {
+        const size_t *body = s->pairs.at[k].body;
+        if (!box_is_unmoved(&s->pairs.at[k]))
             code = scene_ignore_members(scene, (scene_members){false, body[0]},
                                         (scene_members){false, body[1]});
     }
@@ -25,18 +25,18 @@ static imp_code ignore_moved(const imp_survey *s, imp_scene *scene)
 
 imp_code box_scene(imp_survey *s, const survey_box *box, imp_scene **made, imp_error *error)
 {
-    const survey_pair *pair = &s->pairs[box->pair];
+    const survey_pair *pair = &s->pairs.at[box->pair];
     const size_t count = scene_body_count(s->scene);
     size_t *all = NULL;
     imp_code code;
-    if (!box_is_rest(pair)) {
-        code = posed_scene_of_bodies(s->scene, s->at, pair->body, 2, pair->swept, made);
+    if (!box_is_unmoved(pair)) {
+        code = posed_scene_of_bodies(s->scene, s->box.middle, pair->body, 2, pair->swept, made);
         return code == IMP_SUCCESS ? code : error_set_memory(error);
     }
     all = malloc((count + 1) * sizeof *all);
     if (all == NULL) return error_set_memory(error);
     for (size_t b = 0; b < count; ++b) all[b] = b;
-    code = posed_scene_of_bodies(s->scene, s->at, all, count, SIZE_MAX, made);
+    code = posed_scene_of_bodies(s->scene, s->box.middle, all, count, SIZE_MAX, made);
     free(all);
     if (code == IMP_SUCCESS && ignore_moved(s, *made) != IMP_SUCCESS) {
         imp_scene_free(*made);
@@ -47,7 +47,7 @@ imp_code box_scene(imp_survey *s, const survey_box *box, imp_scene **made, imp_e
 
 double survey_seconds(const imp_survey *s)
 {
-    return s->step_from[0] + (clock_seconds() - s->step_from[1]);
+    return s->clock.step_from[0] + (clock_seconds() - s->clock.step_from[1]);
 }
 
 #define PROGRESS_EVERY 0.1 /* seconds between reports */
@@ -59,31 +59,33 @@ static bool report(void *context, const imp_progress *of_query)
     const survey_box *first = box_queue_first(&s->queue);
     imp_progress all = *of_query;
     if (atomic_load(&s->cancelled)) return false;
-    all.pairs += s->stats.pairs;
+    all.pairs += s->counts.stats.pairs;
     all.heap += s->queue.count;
     all.seconds = survey_seconds(s);
-    if (s->is_distance) {
-        all.lower = first != NULL && first->key < s->settled ? first->key : s->settled;
+    if (s->question.is_distance) {
+        all.lower =
+            first != NULL && first->key < s->counts.settled ? first->key : s->counts.settled;
         all.upper = s->best.distance;
     } else {
-        all.t_lower = first != NULL && first->key < s->key_asked ? first->key : s->key_asked;
+        all.t_lower = first != NULL && first->key < s->box.key ? first->key : s->box.key;
     }
-    if (s->options.progress == NULL || all.seconds < s->next_report) return true;
-    s->next_report = all.seconds + PROGRESS_EVERY;
-    return s->options.progress(s->options.progress_context, &all);
+    if (s->question.options.progress == NULL || all.seconds < s->clock.next_report) return true;
+    s->clock.next_report = all.seconds + PROGRESS_EVERY;
+    return s->question.options.progress(s->question.options.progress_context, &all);
 }
 
 /* `pairs` is a limit of the query's own; 0: none. */
 static imp_options options_of_query(imp_survey *s, double t_start, double t_end, uint64_t pairs)
 {
-    imp_options options = s->options;
+    imp_options options = s->question.options;
     options.t_start = t_start;
     options.t_end = t_end;
     options.progress = report;
     options.progress_context = s;
     if (options.max_pairs > 0) /* 0 would be no limit */
-        options.max_pairs =
-            s->stats.pairs < options.max_pairs ? options.max_pairs - s->stats.pairs : 1;
+        options.max_pairs = s->counts.stats.pairs < options.max_pairs
+                                ? options.max_pairs - s->counts.stats.pairs
+                                : 1;
     if (pairs > 0 && !(options.max_pairs > 0 && options.max_pairs <= pairs))
         options.max_pairs = pairs;
     if (options.max_seconds > 0) {
@@ -95,21 +97,25 @@ static imp_options options_of_query(imp_survey *s, double t_start, double t_end,
 
 static void add_stats(imp_survey *s, const imp_stats *of_query)
 {
-    const uint64_t own = s->queue.count * (sizeof(survey_box) + 2 * s->count * sizeof(double));
-    s->stats.pairs += of_query->pairs;
-    s->stats.nodes += of_query->nodes;
-    s->stats.witness_searches += of_query->witness_searches;
-    if (of_query->peak_heap > s->stats.peak_heap) s->stats.peak_heap = of_query->peak_heap;
-    if (of_query->bytes + own > s->stats.bytes) s->stats.bytes = of_query->bytes + own;
+    const uint64_t own = s->queue.count * (sizeof(survey_box) + 2 * s->parameters * sizeof(double));
+    s->counts.stats.pairs += of_query->pairs;
+    s->counts.stats.nodes += of_query->nodes;
+    s->counts.stats.witness_searches += of_query->witness_searches;
+    if (of_query->peak_heap > s->counts.stats.peak_heap)
+        s->counts.stats.peak_heap = of_query->peak_heap;
+    if (of_query->bytes + own > s->counts.stats.bytes)
+        s->counts.stats.bytes = of_query->bytes + own;
 }
 
 query_times box_times(const imp_survey *s, const survey_box *box)
 {
-    const size_t swept = s->pairs[box->pair].swept;
-    const double t_end = s->best.t < s->options.t_end ? s->best.t : s->options.t_end;
-    if (box_is_swept(&s->pairs[box->pair]))
+    const size_t swept = s->pairs.at[box->pair].swept;
+    const double t_end =
+        s->best.t < s->question.options.t_end ? s->best.t : s->question.options.t_end;
+    if (box_is_swept(&s->pairs.at[box->pair]))
         return (query_times){box->range[2 * swept], box->range[2 * swept + 1]};
-    if (s->is_distance) return (query_times){s->options.t_start, s->options.t_end};
+    if (s->question.is_distance)
+        return (query_times){s->question.options.t_start, s->question.options.t_end};
     return (query_times){box->key, t_end};
 }
 
@@ -130,8 +136,9 @@ bool box_must_end(imp_survey *s, imp_reason reason)
 /* The seams that solids may have are those of the scene's tolerances, in every box. */
 static double seam_of(const imp_survey *s)
 {
-    const double twice = 2 * tolerances_clear(s->options.gamma, s->options.gamma_clear);
-    return s->options.gamma < twice ? s->options.gamma : twice;
+    const double twice =
+        2 * tolerances_clear(s->question.options.gamma, s->question.options.gamma_clear);
+    return s->question.options.gamma < twice ? s->question.options.gamma : twice;
 }
 
 imp_code box_run_contact(imp_survey *s, imp_scene *scene, query_times times, const double gamma[2],

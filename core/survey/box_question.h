@@ -10,20 +10,19 @@
  * contact and for the least distance, survey_box.c has what both share. */
 
 /* What is left of a box after its queries. */
-typedef enum box_rest {
+typedef enum box_state {
     BOX_OPEN,   /* to be halved */
     BOX_DONE,   /* nothing, or nothing that could change the answer */
     BOX_WAITING /* all of it: a limit ended the query, or doubles cannot resolve more */
-} box_rest;
+} box_state;
 
 /* The times of the queries of a box: what is left of the parameter that is swept, or of time. */
 typedef struct query_times {
     double start, end;
 } query_times;
 
-/* Whether the pair stands for the rest of the pairs of bodies, which no parameter moves (not to be
- * confused with box_rest). */
-bool box_is_rest(const survey_pair *pair);
+/* Whether the pair stands for the rest of the pairs of bodies, which no parameter moves. */
+bool box_is_unmoved(const survey_pair *pair);
 
 /* Whether queries of the pair take a parameter for their time. */
 bool box_is_swept(const survey_pair *pair);
@@ -48,10 +47,10 @@ bool box_is_limit(imp_reason reason);
 bool box_must_end(imp_survey *s, imp_reason reason);
 
 /* Measures the box over the times in question: for a contact, those that are left. */
-imp_code box_measure(imp_survey *s, const survey_box *box, survey_view *view, imp_error *error);
+imp_code box_measure(imp_survey *s, const survey_box *box, box_bounds *bounds, imp_error *error);
 
 /* Queues the halves of the box, which share the middle. *done false: it cannot be halved. */
-imp_code box_split(imp_survey *s, const survey_box *box, const survey_view *view, bool *done,
+imp_code box_split(imp_survey *s, const survey_box *box, const box_bounds *bounds, bool *done,
                    imp_error *error);
 
 /* Replaces indices of bodies in a box's scene by those in the survey's scene. */
@@ -61,8 +60,8 @@ void box_name_side(const survey_pair *pair, imp_side *a, imp_side *b);
  * scene's time. */
 void box_keep_values(imp_survey *s, const survey_box *box, double *t);
 
-/* Asks about a box; *rest is BOX_OPEN at the call. */
-imp_code box_ask_contact(imp_survey *s, survey_box *box, box_rest *rest, imp_error *error);
-imp_code box_ask_distance(imp_survey *s, survey_box *box, box_rest *rest, imp_error *error);
+/* Asks about a box; *state is BOX_OPEN at the call. */
+imp_code box_ask_contact(imp_survey *s, survey_box *box, box_state *state, imp_error *error);
+imp_code box_ask_distance(imp_survey *s, survey_box *box, box_state *state, imp_error *error);
 
 #endif

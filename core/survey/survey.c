@@ -64,7 +64,7 @@ static imp_code check_asked(const imp_clearance_options *asked, imp_error *error
 /* Checks the ranges that are asked about; NULL stands for all. */
 static imp_code check_ranges(const imp_survey *s, imp_error *error)
 {
-    const imp_survey_options *how = &s->how;
+    const imp_survey_options *how = &s->question.how;
     const scene_parameters *all = scene_parameters_read(s->scene);
     if (how->lo == NULL && how->hi == NULL) return IMP_SUCCESS;
     if (how->lo == NULL || how->hi == NULL)
@@ -82,40 +82,64 @@ static imp_code check_ranges(const imp_survey *s, imp_error *error)
 
 /* --- Creation and destruction ----------------------------------------------------------------- */
 
-/* One block of numbers: ranges, the values of the incumbent and of that marked, the box in question
- * (survey_measure.c), and shifts. False: no memory. */
+/* Makes one block of numbers: ranges, the values of the incumbent and of that of the snapshot, the
+ * box being asked about, and shifts. False: no memory. */
 static bool make_room(imp_survey *s)
 {
     const size_t n = scene_parameters_read(s->scene)->count;
     double *block = calloc(10 * n + 1, sizeof *block);
-    s->cuts = calloc(n + 1, sizeof *s->cuts);
+    s->counts.cuts = calloc(n + 1, sizeof *s->counts.cuts);
     s->lo = block; /* freed in any case */
-    if (block == NULL || s->cuts == NULL) return false;
-    s->count = n;
+    if (block == NULL || s->counts.cuts == NULL) return false;
+    s->parameters = n;
     s->hi = block + n;
     s->best.values = block + 2 * n;
-    for (int k = 0; k < 3; ++k) s->shift[k] = block + (3 + (size_t)k) * n;
-    s->at = block + 6 * n; /* 3 n numbers: middle, lo and hi of the box that is asked about */
-    s->mark.best.values = block + 9 * n;
+    for (int k = 0; k < 3; ++k) s->box.shift[k] = block + (3 + (size_t)k) * n;
+    s->box.middle = block + 6 * n;
+    s->before.best.values = block + 9 * n;
     for (size_t k = 0; k < n; ++k) {
         const scene_parameter *p = &scene_parameters_read(s->scene)->at[k];
-        s->lo[k] = s->how.lo != NULL ? s->how.lo[k] : p->lo;
-        s->hi[k] = s->how.hi != NULL ? s->how.hi[k] : p->hi;
+        s->lo[k] = s->question.how.lo != NULL ? s->question.how.lo[k] : p->lo;
+        s->hi[k] = s->question.how.hi != NULL ? s->question.how.hi[k] : p->hi;
     }
     return true;
 }
 
 /* A required distance alone is a search for any contact at that distance. */
-static void set_aims(imp_survey *s)
+static void set_aims(survey_question *q)
 {
-    const bool decides = s->is_clearance && s->asked.decide && s->asked.required > 0;
-    s->is_distance = s->is_clearance && !decides;
-    s->gamma = s->options.gamma;
-    s->gamma_clear = tolerances_clear(s->options.gamma, s->options.gamma_clear);
+    const bool decides = q->is_clearance && q->clearance.decide && q->clearance.required > 0;
+    q->is_distance = q->is_clearance && !decides;
+    q->gamma = q->options.gamma;
+    q->gamma_clear = tolerances_clear(q->options.gamma, q->options.gamma_clear);
     if (!decides) return;
-    s->gamma = s->asked.required;
-    s->gamma_clear = tolerances_nearly(s->asked.required);
-    s->how.any = true;
+    q->gamma = q->clearance.required;
+    q->gamma_clear = tolerances_nearly(q->clearance.required);
+    q->how.any = true;
+}
+
+/* Reads what is asked; NULL: what is usual. */
+FP_APART static imp_code read_question(const imp_scene *scene, const imp_options *options,
+                                       const imp_clearance_options *clearance,
+                                       const imp_survey_options *how, survey_question *to,
+                                       imp_error *error)
+{
+    *to = (survey_question){.is_clearance = clearance != NULL,
+                            .clearance = imp_clearance_options_default(),
+                            .how = usual};
+    scene_options(scene, &to->options);
+    imp_code code = sized_read("imp_options", &to->options, options, SCENE_OPTIONS_FIRST, error);
+    if (code == IMP_SUCCESS && clearance != NULL)
+        code = sized_read("imp_clearance_options", &to->clearance, clearance, ASKED_FIRST, error);
+    if (code == IMP_SUCCESS && how != NULL)
+        code = sized_read("imp_survey_options", &to->how, how, HOW_FIRST, error);
+    if (code == IMP_SUCCESS) code = check_options(scene, &to->options, error);
+    if (code == IMP_SUCCESS)
+        code = examined_times_find(scene, to->options.t_start, to->options.t_end, &to->examined,
+                                   error);
+    if (code == IMP_SUCCESS) code = check_asked(&to->clearance, error);
+    if (code == IMP_SUCCESS) code = check_bodies(scene, to->how.body, error);
+    return code;
 }
 
 FP_APART static imp_code fill(imp_survey *s, imp_scene *scene, const imp_options *options,
@@ -123,35 +147,22 @@ FP_APART static imp_code fill(imp_survey *s, imp_scene *scene, const imp_options
                               imp_error *error)
 {
     *s = (imp_survey){.scene = scene,
-                      .is_clearance = asked != NULL,
-                      .asked = imp_clearance_options_default(),
-                      .how = usual,
                       .best = {.t = INFINITY, .distance = INFINITY},
-                      .settled = INFINITY,
+                      .counts = {.settled = INFINITY},
                       .verdict = IMP_VERDICT_UNDECIDED,
                       .reason = IMP_REASON_RUNNING};
-    scene_options(scene, &s->options);
-    imp_code code = sized_read("imp_options", &s->options, options, SCENE_OPTIONS_FIRST, error);
-    if (code == IMP_SUCCESS && asked != NULL)
-        code = sized_read("imp_clearance_options", &s->asked, asked, ASKED_FIRST, error);
-    if (code == IMP_SUCCESS && how != NULL)
-        code = sized_read("imp_survey_options", &s->how, how, HOW_FIRST, error);
-    if (code == IMP_SUCCESS) code = check_options(scene, &s->options, error);
-    if (code == IMP_SUCCESS)
-        code =
-            examined_times_find(scene, s->options.t_start, s->options.t_end, &s->examined, error);
-    if (code == IMP_SUCCESS) code = check_asked(&s->asked, error);
-    if (code == IMP_SUCCESS) code = check_bodies(scene, s->how.body, error);
+    imp_code code = read_question(scene, options, asked, how, &s->question, error);
     if (code == IMP_SUCCESS) code = check_ranges(s, error);
     if (code == IMP_SUCCESS && !make_room(s)) code = error_set_memory(error);
     if (code != IMP_SUCCESS) return code;
-    set_aims(s);
+    set_aims(&s->question);
+    const char *resume = s->question.how.resume;
+    const double key = s->question.is_distance ? 0 : s->question.options.t_start;
     code = survey_find_pairs(s, error);
-    if (code == IMP_SUCCESS)
-        code = survey_add_roots(s, s->is_distance ? 0 : s->options.t_start, error);
+    if (code == IMP_SUCCESS) code = survey_add_roots(s, key, error);
     if (code == IMP_SUCCESS) code = survey_choose_swept(s, error);
-    return code == IMP_SUCCESS && s->how.resume != NULL ? survey_load(s, s->how.resume, error)
-                                                        : code;
+    if (code == IMP_SUCCESS && resume != NULL) code = survey_load(s, resume, error);
+    return code;
 }
 
 imp_survey *imp_survey_new(imp_scene *scene, const imp_options *options,
@@ -174,12 +185,12 @@ void imp_survey_free(imp_survey *s)
 {
     if (s == NULL) return;
     box_queue_clear(&s->queue);
-    survey_mark_drop(s);
-    survey_told_clear(s);
-    free(s->pairs);
-    free(s->extents);
-    free(s->first);
-    free(s->cuts);
+    survey_snapshot_drop(s);
+    survey_records_clear(&s->records);
+    free(s->pairs.at);
+    free(s->extents.of);
+    free(s->extents.first);
+    free(s->counts.cuts);
     free(s->lo);
     scene_end_use(s->scene);
     free(s);
@@ -195,13 +206,16 @@ void imp_survey_cancel(imp_survey *survey)
 /* Returns the limit that is reached, or NONE. */
 static imp_reason exhausted(imp_survey *s)
 {
-    const imp_options *options = &s->options;
+    const imp_options *options = &s->question.options;
     if (atomic_exchange(&s->cancelled, false)) return IMP_REASON_CANCELLED;
-    if (options->max_pairs > 0 && s->stats.pairs >= options->max_pairs) return IMP_REASON_PAIRS;
-    if (s->how.max_boxes > 0 && s->boxes >= s->how.max_boxes) return IMP_REASON_PAIRS;
-    if (options->max_seconds > 0 && s->stats.seconds >= options->max_seconds)
+    if (options->max_pairs > 0 && s->counts.stats.pairs >= options->max_pairs)
+        return IMP_REASON_PAIRS;
+    if (s->question.how.max_boxes > 0 && s->counts.boxes >= s->question.how.max_boxes)
+        return IMP_REASON_PAIRS;
+    if (options->max_seconds > 0 && s->counts.stats.seconds >= options->max_seconds)
         return IMP_REASON_SECONDS;
-    if (options->max_bytes > 0 && s->stats.bytes > options->max_bytes) return IMP_REASON_MEMORY;
+    if (options->max_bytes > 0 && s->counts.stats.bytes > options->max_bytes)
+        return IMP_REASON_MEMORY;
     return IMP_REASON_NONE;
 }
 
@@ -210,26 +224,26 @@ static bool is_decided(const imp_survey *s)
 {
     const survey_box *first = box_queue_first(&s->queue);
     if (first == NULL) return true;
-    if (!s->is_distance) return first->key >= s->best.t || (s->how.any && s->best.is_known);
-    return first->key >= survey_distance_enough(s) || s->best.distance <= s->gamma;
+    if (!s->question.is_distance)
+        return first->key >= s->best.t || (s->question.how.any && s->best.is_known);
+    return first->key >= survey_distance_enough(s) || s->best.distance <= s->question.gamma;
 }
 
 /* Reports the undecided boxes to the sink; an interrupted box is reported as it was before the
- * interruption. They stay in the queue, since a later step may decide them. What s->told keeps back
- * of an interrupted box is put aside meanwhile: it is reported only if this process goes on. */
-static imp_code tell_rest(imp_survey *s, imp_error *error)
+ * interruption. They stay in the queue, since a later step may decide them. The records that an
+ * interrupted box has left are put aside meanwhile: they are sent only if this process goes on. */
+static imp_code report_waiting(imp_survey *s, imp_error *error)
 {
-    survey_told **kept = s->told;
-    const size_t count = s->told_count, capacity = s->told_capacity;
-    s->told = NULL, s->told_count = 0;
+    const survey_records kept = s->records;
+    s->records = (survey_records){.failed = kept.failed};
     for (size_t k = 0; k < s->queue.count; ++k) {
-        const survey_box *box = survey_marked(s, s->queue.at[k]);
-        survey_tell(s, box, s->is_distance ? s->options.t_start : box->key, s->options.t_end,
-                    IMP_VERDICT_UNDECIDED, 0);
+        const survey_box *box = survey_box_before(s, s->queue.at[k]);
+        const double t_start = s->question.is_distance ? s->question.options.t_start : box->key;
+        survey_record_box(s, box, t_start, s->question.options.t_end, IMP_VERDICT_UNDECIDED, 0);
     }
-    const imp_code code = survey_flush(s, error);
-    survey_told_clear(s);
-    s->told = kept, s->told_count = count, s->told_capacity = capacity;
+    const imp_code code = survey_records_send(s, error);
+    survey_records_clear(&s->records);
+    s->records = kept;
     return code;
 }
 
@@ -242,15 +256,15 @@ static void conclude(imp_survey *s)
 /* Asks about the next boxes. */
 FP_APART static imp_code step(imp_survey *s, uint64_t boxes, imp_error *error)
 {
-    const uint64_t last = s->boxes + boxes;
-    survey_mark_drop(s); /* this process keeps what the interrupted query proved */
-    imp_code code = survey_flush(s, error);
+    const uint64_t last = s->counts.boxes + boxes;
+    survey_snapshot_drop(s); /* this process keeps what the interrupted query proved */
+    imp_code code = survey_records_send(s, error);
     s->reason = IMP_REASON_RUNNING;
     while (code == IMP_SUCCESS && s->reason == IMP_REASON_RUNNING) {
-        s->stats.seconds = survey_seconds(s);
+        s->counts.stats.seconds = survey_seconds(s);
         if (is_decided(s)) {
             conclude(s);
-        } else if (boxes > 0 && s->boxes >= last) {
+        } else if (boxes > 0 && s->counts.boxes >= last) {
             return IMP_SUCCESS;
         } else {
             const imp_reason limit = exhausted(s);
@@ -261,8 +275,8 @@ FP_APART static imp_code step(imp_survey *s, uint64_t boxes, imp_error *error)
         }
     }
     if (code == IMP_SUCCESS && s->reason == IMP_REASON_NONE) conclude(s);
-    s->stats.seconds = survey_seconds(s);
-    return code == IMP_SUCCESS ? tell_rest(s, error) : code;
+    s->counts.stats.seconds = survey_seconds(s);
+    return code == IMP_SUCCESS ? report_waiting(s, error) : code;
 }
 
 imp_code imp_survey_step(imp_survey *s, uint64_t boxes, imp_error *error)
@@ -272,8 +286,8 @@ imp_code imp_survey_step(imp_survey *s, uint64_t boxes, imp_error *error)
         return error_set(error, IMP_ERROR_USAGE, "this survey has ended with an error already");
     if (s->reason == IMP_REASON_NONE) return IMP_SUCCESS;
     const fp_environment environment = fp_environment_enter();
-    s->step_from[0] = s->stats.seconds;
-    s->step_from[1] = clock_seconds();
+    s->clock.step_from[0] = s->counts.stats.seconds;
+    s->clock.step_from[1] = clock_seconds();
     const imp_code code = step(s, boxes, error);
     s->failed = code != IMP_SUCCESS;
     fp_environment_leave(&environment);

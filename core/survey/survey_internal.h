@@ -39,8 +39,8 @@
  *
  * survey.c steps, survey_box.c and box_*.c decide one box (box_question.h), survey_measure.c bounds
  * how its parameters shift bodies, survey_pairs.c finds which bodies which parameters move,
- * survey_mark.c marks where the survey stands and hands boxes to the sink, survey_state.c saves
- * and loads, survey_answer.c and survey_cost.c return results. */
+ * survey_records.c hands boxes to the sink and keeps a snapshot for imp_survey_save,
+ * survey_state.c saves and loads, survey_answer.c and survey_cost.c return results. */
 
 #define SURVEY_ALL_BODIES SIZE_MAX
 
@@ -64,53 +64,89 @@ typedef struct survey_incumbent {
     imp_clearance nearest;
 } survey_incumbent;
 
-/* Where the survey stood before the box being asked about; it is kept if a limit interrupts a query
- * of that box. The answer uses what the interrupted query proved, but imp_survey_save writes the
- * mark: a survey that goes on from it asks about the box again, and answers like one that was not
- * interrupted. */
-typedef struct survey_mark {
+/* What a survey counts. */
+typedef struct survey_counts {
+    uint64_t made;         /* boxes; numbers those that come */
+    uint64_t boxes;        /* asked about, */
+    uint64_t boxes_before; /* and by the surveys that this one goes on from */
+    double proved;         /* sum of the shares of all pairs */
+    double settled;        /* least distance proved of boxes that are done with; length */
+    uint64_t *cuts;        /* of boxes along each parameter */
+    imp_stats stats;       /* of all queries together */
+} survey_counts;
+
+/* The survey as it was before it asked about a box; it is kept if a limit interrupts a query of
+ * that box. The answer uses what the interrupted query proved, but imp_survey_save writes the
+ * snapshot: a survey that goes on from it asks about the box again, and answers like one that was
+ * not interrupted. */
+typedef struct survey_snapshot {
     survey_box *box; /* owned; NULL: none is interrupted */
     uint64_t boxes;
     double proved, settled;
     survey_incumbent best;
-} survey_mark;
+} survey_snapshot;
 
-typedef struct survey_told survey_told; /* a box to be handed to the sink */
+/* Boxes for the caller's sink, kept back until the box being asked about is done. */
+typedef struct survey_record survey_record;
+typedef struct survey_records {
+    survey_record **at;
+    size_t count, capacity;
+    bool failed; /* no memory for one */
+} survey_records;
 
-struct imp_survey {
-    imp_scene *scene;
+/* What is asked. */
+typedef struct survey_question {
     imp_options options;
     imp_survey_options how;
     bool is_clearance; /* asked with clearance options, */
-    bool is_distance;  /* for a bracket; else for the earliest contact, or any */
-    imp_clearance_options asked;
-    double gamma, gamma_clear; /* of the search for a contact */
+    imp_clearance_options clearance;
+    bool is_distance;          /* for a bracket; else for the earliest contact, or any */
+    double gamma, gamma_clear; /* of the search for a contact; length */
     examined_times examined;
-    size_t count;    /* of parameters */
-    double *lo, *hi; /* their ranges, one block with the values of both incumbents, and the view */
-    double *at, *shift[3]; /* of the box being asked about: its middle; shifts of both bodies and
-                                  of one of their surfaces */
-    size_t *first;         /* of each body, its first extent */
-    surface_extent *extents;
-    survey_pair *pairs;
-    size_t pair_count, pair_capacity;
+} survey_question;
+
+/* The pairs of bodies. */
+typedef struct survey_pairs {
+    survey_pair *at;
+    size_t count, capacity;
+} survey_pairs;
+
+/* The surfaces before their maps. */
+typedef struct survey_extents {
+    size_t *first; /* of each body, its first surface */
+    surface_extent *of;
+} survey_extents;
+
+/* The box being asked about. */
+typedef struct survey_asked_box {
+    double key;
+    double *middle;   /* followed by the ranges, lo of all parameters, then hi */
+    double *shift[3]; /* by each parameter, at most: of both bodies together, of body 1, and of one
+                         surface; length */
+} survey_asked_box;
+
+/* Seconds in a step, and when progress is reported next. */
+typedef struct survey_clock {
+    double next_report, step_from[2];
+} survey_clock;
+
+struct imp_survey {
+    imp_scene *scene;
+    survey_question question;
+    size_t parameters; /* their number */
+    double *lo, *hi;   /* their ranges; lo begins the block that holds all values */
+    survey_pairs pairs;
+    survey_extents extents;
     box_queue queue;
-    uint64_t made, boxes;
-    uint64_t boxes_before; /* asked about by the surveys that this one goes on from */
-    double key_asked;      /* of the box being asked about */
+    survey_asked_box box;
     survey_incumbent best;
-    survey_mark mark;
-    survey_told **told; /* kept back until the box being asked about is done */
-    size_t told_count, told_capacity;
-    bool told_failed; /* no memory for one */
-    double settled;   /* least distance proved of boxes that are done with; length */
-    double proved;    /* shares of all pairs together */
-    uint64_t *cuts;   /* of boxes along each parameter */
-    imp_stats stats;
+    survey_counts counts;
+    survey_snapshot before;
+    survey_records records;
+    survey_clock clock;
     imp_verdict verdict;
     imp_reason reason;
     bool failed;
-    double next_report, step_from[2]; /* seconds, as in a query */
     atomic_bool cancelled;
 };
 
@@ -121,23 +157,23 @@ imp_code survey_find_pairs(imp_survey *s, imp_error *error);
  * maps. */
 imp_code survey_choose_swept(imp_survey *s, imp_error *error);
 
-/* How far the values of a box shift the two bodies of its pair, at most. */
-typedef struct survey_view {
+/* What is known of a box before any query. */
+typedef struct box_bounds {
     const double *lo, *hi; /* ranges of the parameters */
     double total;          /* >= shift of all parameters and both bodies together; length */
     double apart;          /* <= distance of the bodies at all values; length */
-    double t_start, t_end; /* the times of its bounds */
+    double t_start, t_end; /* the times of these bounds */
     bool follows_time;
-} survey_view;
+} box_bounds;
 
-/* Makes the view of a box over these times. s->at becomes the box's middle, followed by the ranges
- * that the view points to; s->shift[0][k] becomes the share of parameter k. */
+/* Bounds a box over these times. s->box.middle becomes the box's middle, followed by the ranges
+ * that the bounds point to; s->box.shift[0][k] becomes the share of parameter k. */
 imp_code survey_measure(imp_survey *s, const survey_box *box, size_t left_out, double t_start,
-                        double t_end, survey_view *view, imp_error *error);
+                        double t_end, box_bounds *bounds, imp_error *error);
 
 /* Makes the spread of the box that was measured last, of two bodies. It is to be cleared in any
  * case. */
-imp_code survey_spread_make(imp_survey *s, const survey_box *box, const survey_view *view,
+imp_code survey_spread_make(imp_survey *s, const survey_box *box, const box_bounds *bounds,
                             query_spread *to, imp_error *error);
 void survey_spread_clear(query_spread *spread);
 
@@ -154,19 +190,19 @@ void survey_add_proved(imp_survey *s, const survey_box *box, double share);
  * that ends the survey. */
 imp_code survey_ask(imp_survey *s, survey_box *box, imp_error *error);
 
-/* Marks where the survey stands before it asks about a box; forgets the mark. */
-imp_code survey_mark_take(imp_survey *s, const survey_box *box, imp_error *error);
-void survey_mark_drop(imp_survey *s);
+/* Keeps a snapshot of the survey before it asks about a box; drops it. */
+imp_code survey_snapshot_take(imp_survey *s, const survey_box *box, imp_error *error);
+void survey_snapshot_drop(imp_survey *s);
 
 /* Returns the box as it was before it was interrupted, if it was, else itself. */
-const survey_box *survey_marked(const imp_survey *s, const survey_box *box);
+const survey_box *survey_box_before(const imp_survey *s, const survey_box *box);
 
-/* Keeps a box over a part of time for the sink. What is kept goes there by survey_flush. */
-void survey_tell(imp_survey *s, const survey_box *box, double t_start, double t_end,
-                 imp_verdict verdict, double lower);
+/* Keeps a box over a part of time for the sink. survey_records_send hands over what is kept. */
+void survey_record_box(imp_survey *s, const survey_box *box, double t_start, double t_end,
+                       imp_verdict verdict, double lower);
 
-imp_code survey_flush(imp_survey *s, imp_error *error);
-void survey_told_clear(imp_survey *s);
+imp_code survey_records_send(imp_survey *s, imp_error *error);
+void survey_records_clear(survey_records *records);
 
 /* Goes on from what imp_survey_save returned: the first boxes of pairs give way to those left. */
 imp_code survey_load(imp_survey *s, const char *text, imp_error *error);

@@ -37,25 +37,25 @@ static double apart_lower(const surface_image *a, const surface_image *b)
 }
 
 /* Adds what parameters shift one body of the pair by, at most: of its surfaces the one that moves
- * most. s->shift[2] is scratch. */
+ * most. s->box.shift[2] is scratch. */
 static imp_code measure_body(imp_survey *s, size_t body, size_t left_out, const value_box *values,
                              double *most, surface_image *all, imp_error *error)
 {
-    double *one = s->shift[2];
-    for (size_t j = 0; j < s->count; ++j) most[j] = 0;
+    double *one = s->box.shift[2];
+    for (size_t j = 0; j < s->parameters; ++j) most[j] = 0;
     all->follows_time = false;
     for (int i = 0; i < 3; ++i) all->lo[i] = INFINITY, all->hi[i] = -INFINITY;
     for (size_t k = 0; k < scene_surface_count(s->scene, body); ++k) {
         const surface *of = scene_surface(s->scene, body, k);
         surface_image image;
-        const imp_status status =
-            surface_shift_upper(of, &s->extents[s->first[body] + k], left_out, values, one, &image);
+        const imp_status status = surface_shift_upper(
+            of, &s->extents.of[s->extents.first[body] + k], left_out, values, one, &image);
         if (status != IMP_STATUS_OK) {
             surface_fault(of, error, ": %s", surface_status_message(of, status).text);
             return surface_set_code(status, error);
         }
         join_image(all, &image);
-        for (size_t j = 0; j < s->count; ++j) most[j] = greater(most[j], one[j]);
+        for (size_t j = 0; j < s->parameters; ++j) most[j] = greater(most[j], one[j]);
     }
     return IMP_SUCCESS;
 }
@@ -63,32 +63,32 @@ static imp_code measure_body(imp_survey *s, size_t body, size_t left_out, const 
 /* Roundings of the total: the sum over two bodies 1, over the parameters SCENE_PARAMETERS_MAX. */
 PAD_COVERS(64, 1 + SCENE_PARAMETERS_MAX);
 
-/* s->shift[0][k] becomes what parameter k shifts both bodies by; 0 for one that is swept. */
+/* s->box.shift[0][k] becomes what parameter k shifts both bodies by; 0 for one that is swept. */
 imp_code survey_measure(imp_survey *s, const survey_box *box, size_t left_out, double t_start,
-                        double t_end, survey_view *view, imp_error *error)
+                        double t_end, box_bounds *bounds, imp_error *error)
 {
-    const survey_pair *pair = &s->pairs[box->pair];
-    double *lo = s->at + s->count, *hi = lo + s->count; /* behind the middle */
+    const survey_pair *pair = &s->pairs.at[box->pair];
+    double *lo = s->box.middle + s->parameters, *hi = lo + s->parameters; /* behind the middle */
     surface_image image[2];
-    for (size_t j = 0; j < s->count; ++j) {
+    for (size_t j = 0; j < s->parameters; ++j) {
         lo[j] = box->range[2 * j], hi[j] = box->range[2 * j + 1];
-        s->at[j] = scene_parameter_middle(lo[j], hi[j]);
-        s->shift[0][j] = 0;
+        s->box.middle[j] = scene_parameter_middle(lo[j], hi[j]);
+        s->box.shift[0][j] = 0;
     }
-    *view = (survey_view){.lo = lo, .hi = hi, .t_start = t_start, .t_end = t_end};
+    *bounds = (box_bounds){.lo = lo, .hi = hi, .t_start = t_start, .t_end = t_end};
     if (pair->body[0] == SURVEY_ALL_BODIES) return IMP_SUCCESS;
-    const value_box values = {s->count, lo, hi, s->at, t_start, t_end};
+    const value_box values = {s->parameters, lo, hi, s->box.middle, t_start, t_end};
     for (int side = 0; side < 2; ++side) {
-        const imp_code code = measure_body(s, pair->body[side], left_out, &values, s->shift[side],
-                                           &image[side], error);
+        const imp_code code = measure_body(s, pair->body[side], left_out, &values,
+                                           s->box.shift[side], &image[side], error);
         if (code != IMP_SUCCESS) return code;
     }
-    for (size_t j = 0; j < s->count; ++j) {
-        s->shift[0][j] = j == pair->swept ? 0 : s->shift[0][j] + s->shift[1][j];
-        view->total += s->shift[0][j];
+    for (size_t j = 0; j < s->parameters; ++j) {
+        s->box.shift[0][j] = j == pair->swept ? 0 : s->box.shift[0][j] + s->box.shift[1][j];
+        bounds->total += s->box.shift[0][j];
     }
-    view->total = padded_upper(view->total, 64);
-    view->follows_time = image[0].follows_time || image[1].follows_time;
-    view->apart = apart_lower(&image[0], &image[1]);
+    bounds->total = padded_upper(bounds->total, 64);
+    bounds->follows_time = image[0].follows_time || image[1].follows_time;
+    bounds->apart = apart_lower(&image[0], &image[1]);
     return IMP_SUCCESS;
 }

@@ -43,16 +43,17 @@ static size_t common_motion(const imp_scene *scene, const size_t body[2])
 
 static imp_code add_pair(imp_survey *s, survey_pair pair, imp_error *error)
 {
-    survey_pair *grown = array_reserve(s->pairs, s->pair_count, &s->pair_capacity, sizeof *grown);
+    survey_pair *grown =
+        array_reserve(s->pairs.at, s->pairs.count, &s->pairs.capacity, sizeof *grown);
     if (grown == NULL) return error_set_memory(error);
-    s->pairs = grown;
-    s->pairs[s->pair_count++] = pair;
+    s->pairs.at = grown;
+    s->pairs.at[s->pairs.count++] = pair;
     return IMP_SUCCESS;
 }
 
 static bool is_asked(const imp_survey *s, size_t a, size_t b)
 {
-    const size_t *body = s->how.body;
+    const size_t *body = s->question.how.body;
     if (body[0] == SIZE_MAX && body[1] == SIZE_MAX) return !imp_scene_ignores(s->scene, a, b);
     return (body[0] == a && body[1] == b) || (body[0] == b && body[1] == a);
 }
@@ -70,12 +71,12 @@ static imp_code collect_pairs(imp_survey *s, imp_error *error)
             if (!is_asked(s, a, b)) continue;
             pair.left_out = common_motion(s->scene, pair.body);
             if (body_follows(s->scene, a, pair.left_out) ||
-                body_follows(s->scene, b, pair.left_out) || s->how.body[0] != SIZE_MAX)
+                body_follows(s->scene, b, pair.left_out) || s->question.how.body[0] != SIZE_MAX)
                 code = add_pair(s, pair, error);
             else
                 any_rests = true;
         }
-    if (code == IMP_SUCCESS && (any_rests || s->pair_count == 0)) {
+    if (code == IMP_SUCCESS && (any_rests || s->pairs.count == 0)) {
         const survey_pair rest = {.body = {SURVEY_ALL_BODIES, SURVEY_ALL_BODIES},
                                   .swept = SIZE_MAX};
         code = add_pair(s, rest, error);
@@ -89,32 +90,33 @@ static imp_code make_room_for_extents(imp_survey *s, imp_error *error)
 {
     const size_t bodies = scene_body_count(s->scene);
     size_t count = 0;
-    s->first = malloc((bodies + 1) * sizeof *s->first);
-    if (s->first == NULL) return error_set_memory(error);
+    s->extents.first = malloc((bodies + 1) * sizeof *s->extents.first);
+    if (s->extents.first == NULL) return error_set_memory(error);
     for (size_t b = 0; b < bodies; ++b) {
-        s->first[b] = count;
+        s->extents.first[b] = count;
         count += scene_surface_count(s->scene, b);
     }
-    s->extents = malloc((count + 1) * sizeof *s->extents);
-    return s->extents != NULL ? IMP_SUCCESS : error_set_memory(error);
+    s->extents.of = malloc((count + 1) * sizeof *s->extents.of);
+    return s->extents.of != NULL ? IMP_SUCCESS : error_set_memory(error);
 }
 
 /* Whether the survey asks about the body: of two that it is asked about alone, no other needs an
  * extent. */
 static bool is_in_question(const imp_survey *s, size_t body)
 {
-    const size_t *of = s->how.body;
+    const size_t *of = s->question.how.body;
     return of[0] == SIZE_MAX || of[0] == body || of[1] == body;
 }
 
 static imp_code find_extents(imp_survey *s, double t_start, double t_end, imp_error *error)
 {
-    const value_box whole = {s->count, s->lo, s->hi, s->lo, t_start, t_end};
+    const value_box whole = {s->parameters, s->lo, s->hi, s->lo, t_start, t_end};
     for (size_t b = 0; b < scene_body_count(s->scene); ++b) {
         if (!is_in_question(s, b)) continue;
         for (size_t k = 0; k < scene_surface_count(s->scene, b); ++k) {
             const surface *of = scene_surface(s->scene, b, k);
-            const imp_status status = surface_extent_find(of, &whole, &s->extents[s->first[b] + k]);
+            const imp_status status =
+                surface_extent_find(of, &whole, &s->extents.of[s->extents.first[b] + k]);
             if (status == IMP_STATUS_OK) continue;
             surface_fault(of, error, ": %s", surface_status_message(of, status).text);
             return surface_set_code(status, error);
@@ -131,14 +133,14 @@ imp_code survey_find_pairs(imp_survey *s, imp_error *error)
 
 imp_code survey_add_roots(imp_survey *s, double key, imp_error *error)
 {
-    for (size_t k = 0; k < s->pair_count; ++k) {
-        survey_box *box = malloc(sizeof *box + 2 * s->count * sizeof *box->range);
+    for (size_t k = 0; k < s->pairs.count; ++k) {
+        survey_box *box = malloc(sizeof *box + 2 * s->parameters * sizeof *box->range);
         if (box == NULL) return error_set_memory(error);
         box->key = key;
-        box->number = s->made++;
+        box->number = s->counts.made++;
         box->pair = k;
         box->share = 1;
-        for (size_t j = 0; j < s->count; ++j) {
+        for (size_t j = 0; j < s->parameters; ++j) {
             box->range[2 * j] = s->lo[j];
             box->range[2 * j + 1] = s->hi[j];
         }
@@ -153,16 +155,16 @@ imp_code survey_add_roots(imp_survey *s, double key, imp_error *error)
 static imp_code choose_swept(imp_survey *s, const survey_box *box, double t_start, double t_end,
                              imp_error *error)
 {
-    survey_pair *pair = &s->pairs[box->pair];
-    survey_view view;
+    survey_pair *pair = &s->pairs.at[box->pair];
+    box_bounds bounds;
     if (pair->body[0] == SURVEY_ALL_BODIES) return IMP_SUCCESS;
-    imp_code code = survey_measure(s, box, 0, t_start, t_end, &view, error);
-    if (code != IMP_SUCCESS || view.follows_time) return code;
-    code = survey_measure(s, box, pair->left_out, t_start, t_end, &view, error);
+    imp_code code = survey_measure(s, box, 0, t_start, t_end, &bounds, error);
+    if (code != IMP_SUCCESS || bounds.follows_time) return code;
+    code = survey_measure(s, box, pair->left_out, t_start, t_end, &bounds, error);
     if (code != IMP_SUCCESS) return code;
     double most = 0;
-    for (size_t j = 0; j < s->count; ++j)
-        if (s->shift[0][j] > most) most = s->shift[0][j], pair->swept = j;
+    for (size_t j = 0; j < s->parameters; ++j)
+        if (s->box.shift[0][j] > most) most = s->box.shift[0][j], pair->swept = j;
     return IMP_SUCCESS;
 }
 
@@ -171,14 +173,15 @@ static imp_code choose_swept(imp_survey *s, const survey_box *box, double t_star
  * is the same at all of them. */
 imp_code survey_choose_swept(imp_survey *s, imp_error *error)
 {
-    double t_start = s->options.t_start, t_end = s->options.t_end;
-    for (size_t j = 0; j < s->count; ++j) {
+    double t_start = s->question.options.t_start, t_end = s->question.options.t_end;
+    for (size_t j = 0; j < s->parameters; ++j) {
         if (s->lo[j] < t_start) t_start = s->lo[j];
         if (s->hi[j] > t_end) t_end = s->hi[j];
     }
     imp_code code = find_extents(s, t_start, t_end, error);
     for (size_t k = 0; k < s->queue.count && code == IMP_SUCCESS; ++k)
         code = choose_swept(s, s->queue.at[k], t_start, t_end, error);
-    return code == IMP_SUCCESS ? find_extents(s, s->options.t_start, s->options.t_end, error)
-                               : code;
+    return code == IMP_SUCCESS
+               ? find_extents(s, s->question.options.t_start, s->question.options.t_end, error)
+               : code;
 }

@@ -8,17 +8,17 @@
 
 static imp_code check(const imp_survey *s, double gamma, double gamma_clear, imp_error *error)
 {
-    if (s->is_clearance)
+    if (s->question.is_clearance)
         return error_set(error, IMP_ERROR_USAGE, "refine: this survey asks for a minimum distance");
     if (s->failed)
         return error_set(error, IMP_ERROR_USAGE, "this survey has ended with an error already");
     const imp_code code = tolerances_check(gamma, gamma_clear, NULL, error);
     if (code != IMP_SUCCESS) return code;
     const double clear = tolerances_clear(gamma, gamma_clear);
-    if (gamma <= s->gamma && clear <= s->gamma_clear) return IMP_SUCCESS;
+    if (gamma <= s->question.gamma && clear <= s->question.gamma_clear) return IMP_SUCCESS;
     return error_set(error, IMP_ERROR_USAGE,
                      "refine: gamma %g and gamma_clear %g may not exceed those in force, %g and %g",
-                     gamma, clear, s->gamma, s->gamma_clear);
+                     gamma, clear, s->question.gamma, s->question.gamma_clear);
 }
 
 /* Begins again with the whole box of values of each pair.
@@ -27,17 +27,17 @@ static imp_code check(const imp_survey *s, double gamma, double gamma_clear, imp
  * are nearer than a smaller one: t is a key of every box (survey_box). */
 FP_APART static imp_code begin_at(imp_survey *s, double t, imp_error *error)
 {
-    const double all = s->options.t_end - s->options.t_start;
-    const double share = all > 0 ? (t - s->options.t_start) / all : 0;
+    const double all = s->question.options.t_end - s->question.options.t_start;
+    const double share = all > 0 ? (t - s->question.options.t_start) / all : 0;
     box_queue_clear(&s->queue);
-    survey_mark_drop(s);
-    survey_told_clear(s);
+    survey_snapshot_drop(s);
+    survey_records_clear(&s->records);
     s->best.is_known = false;
     s->best.t = INFINITY;
     s->verdict = IMP_VERDICT_UNDECIDED;
     s->reason = IMP_REASON_RUNNING;
-    s->proved = share * (double)s->pair_count;
-    for (size_t k = 0; k < s->pair_count; ++k) s->pairs[k].proved = share;
+    s->counts.proved = share * (double)s->pairs.count;
+    for (size_t k = 0; k < s->pairs.count; ++k) s->pairs.at[k].proved = share;
     return survey_add_roots(s, t, error);
 }
 
@@ -48,8 +48,9 @@ imp_code imp_survey_refine(imp_survey *s, double gamma, double gamma_clear, imp_
     imp_code code = check(s, gamma, gamma_clear, error);
     if (code == IMP_SUCCESS) {
         const bool is_clear = s->reason == IMP_REASON_NONE && s->verdict == IMP_VERDICT_CLEAR;
-        s->gamma = s->options.gamma = gamma;
-        s->gamma_clear = s->options.gamma_clear = tolerances_clear(gamma, gamma_clear);
+        s->question.gamma = s->question.options.gamma = gamma;
+        s->question.gamma_clear = s->question.options.gamma_clear =
+            tolerances_clear(gamma, gamma_clear);
         if (!is_clear) code = begin_at(s, survey_time_lower(s), error);
         s->failed = code != IMP_SUCCESS;
     }

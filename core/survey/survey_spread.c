@@ -32,7 +32,7 @@ static imp_code fill_body(imp_survey *s, const survey_pair *pair, size_t body,
     spread_map *maps = to->maps;
     for (size_t k = 0; k < scene_surface_count(s->scene, body); ++k) {
         const surface *of = scene_surface(s->scene, body, k);
-        const surface_extent *extent = &s->extents[s->first[body] + k];
+        const surface_extent *extent = &s->extents.of[s->extents.first[body] + k];
         const size_t count = surface_map_count(of);
         surface_image image;
         to->known[k] = false;
@@ -40,8 +40,8 @@ static imp_code fill_body(imp_survey *s, const survey_pair *pair, size_t body,
         maps += count;
         map_reach reaches[SPREAD_MAPS_MAX];
         if (count > SPREAD_MAPS_MAX) continue;
-        const imp_status status =
-            surface_shift_trace(of, extent, pair->left_out, values, s->shift[2], &image, reaches);
+        const imp_status status = surface_shift_trace(of, extent, pair->left_out, values,
+                                                      s->box.shift[2], &image, reaches);
         if (status != IMP_STATUS_OK) {
             surface_fault(of, error, ": %s", surface_status_message(of, status).text);
             return surface_set_code(status, error);
@@ -60,18 +60,19 @@ static bool knows_any(const imp_survey *s, size_t body, const bool *known)
     return false;
 }
 
-imp_code survey_spread_make(imp_survey *s, const survey_box *box, const survey_view *view,
+imp_code survey_spread_make(imp_survey *s, const survey_box *box, const box_bounds *bounds,
                             query_spread *to, imp_error *error)
 {
-    const survey_pair *pair = &s->pairs[box->pair];
-    const value_box values = {s->count, view->lo, view->hi, s->at, view->t_start, view->t_end};
+    const survey_pair *pair = &s->pairs.at[box->pair];
+    const value_box values = {s->parameters, bounds->lo,      bounds->hi,
+                              s->box.middle, bounds->t_start, bounds->t_end};
     imp_code code = IMP_SUCCESS;
     *to = (query_spread){.scene = s->scene,
                          .body = {pair->body[0], pair->body[1]},
                          .left_out = pair->left_out,
-                         .parameters = s->count,
-                         .gamma = s->gamma,
-                         .gamma_clear = s->gamma_clear};
+                         .parameters = s->parameters,
+                         .gamma = s->question.gamma,
+                         .gamma_clear = s->question.gamma_clear};
     for (int side = 0; side < 2; ++side) {
         body_spread made;
         const bool room = make_room(s, pair->body[side], &made);

@@ -13,9 +13,7 @@
 
 /* Where a survey stands, as text
  * ==============================
- * {"question": ..., "boxes": N, "made": N, "proved": P, "settled": L, "waiting": [...], "known":
- * ...}
- *
+ * {"question", "boxes": N, "made": N, "proved": P, "settled": L, "waiting": [...], "known"};
  * "question" is what has to be equal in the survey that goes on: ranges, pairs, tolerances. A box
  * that waits is [key, number, pair, share, lo, hi, lo, hi, ...], "known" the incumbent. Numbers are
  * written with 17 digits and read back exactly; null stands for INFINITY. */
@@ -37,18 +35,20 @@ static bool append_numbers(json_t *array, const double *x, size_t count)
 /* Everything that decides which boxes there are and what is asked of them. NULL: no memory. */
 static json_t *question_json(const imp_survey *s)
 {
-    const double numbers[] = {s->gamma,         s->gamma_clear,       s->options.t_start,
-                              s->options.t_end, s->asked.required,    s->asked.tolerance,
-                              s->is_clearance,  s->is_distance,       s->how.any,
-                              (double)s->count, (double)s->pair_count};
+    const survey_question *q = &s->question;
+    const double asked[] = {q->gamma, q->gamma_clear, q->options.t_start, q->options.t_end};
+    const double wanted[] = {q->clearance.required, q->clearance.tolerance, q->is_clearance};
+    const double rest[] = {q->is_distance, q->how.any, (double)s->parameters,
+                           (double)s->pairs.count};
     json_t *list = json_array();
-    bool kept = append_numbers(list, numbers, sizeof numbers / sizeof *numbers);
-    for (size_t j = 0; j < s->count; ++j)
+    bool kept = append_numbers(list, asked, 4) && append_numbers(list, wanted, 3) &&
+                append_numbers(list, rest, 4);
+    for (size_t j = 0; j < s->parameters; ++j)
         kept = kept && append(list, json_string(scene_parameters_read(s->scene)->at[j].name)) &&
                append(list, json_real(s->lo[j])) && append(list, json_real(s->hi[j]));
-    for (size_t k = 0; k < s->pair_count; ++k)
+    for (size_t k = 0; k < s->pairs.count; ++k)
         for (int side = 0; side < 2; ++side)
-            kept = kept && append(list, json_integer((json_int_t)s->pairs[k].body[side]));
+            kept = kept && append(list, json_integer((json_int_t)s->pairs.at[k].body[side]));
     if (kept) return list;
     json_decref(list);
     return NULL;
@@ -67,7 +67,7 @@ static json_t *waiting_json(const imp_survey *s)
 {
     json_t *list = json_array();
     for (size_t k = 0; k < s->queue.count; ++k)
-        if (!append(list, box_json(survey_marked(s, s->queue.at[k]), s->count)))
+        if (!append(list, box_json(survey_box_before(s, s->queue.at[k]), s->parameters)))
             return json_decref(list), NULL;
     return list;
 }
@@ -95,7 +95,7 @@ static known_witness witness_of(const imp_survey *s, const survey_incumbent *bes
     known_witness w = {.t = r->t, .length = r->gap, .a = r->a, .b = r->b};
     w.has_normal = r->has_normal, w.at_rest = r->at_rest, w.kind = (int)r->kind;
     memcpy(w.normal, r->normal, sizeof w.normal);
-    if (!s->is_distance) return w;
+    if (!s->question.is_distance) return w;
     w = (known_witness){.t = c->t, .length = c->upper, .a = c->a, .b = c->b};
     w.has_normal = c->has_normal, w.kind = (int)c->kind;
     memcpy(w.normal, c->normal, sizeof w.normal);
@@ -107,7 +107,7 @@ static json_t *known_json(const imp_survey *s, const survey_incumbent *best)
     if (!best->is_known) return json_null();
     const known_witness w = witness_of(s, best);
     json_t *values = json_array();
-    if (!append_numbers(values, best->values, s->count)) return json_decref(values), NULL;
+    if (!append_numbers(values, best->values, s->parameters)) return json_decref(values), NULL;
     return json_pack("{s:o, s:f, s:f, s:o, s:o, s:b, s:[f,f,f], s:b, s:i}", "values", values, "t",
                      w.t, "length", w.length, "a", side_json(&w.a), "b", side_json(&w.b),
                      "has_normal", w.has_normal, "normal", w.has_normal ? w.normal[0] : 0,
@@ -117,10 +117,11 @@ static json_t *known_json(const imp_survey *s, const survey_incumbent *best)
 
 static json_t *state_json(const imp_survey *s)
 {
-    const survey_mark now = {NULL, s->boxes, s->proved, s->settled, s->best};
-    const survey_mark *m = s->mark.box != NULL ? &s->mark : &now;
+    const survey_counts *n = &s->counts;
+    const survey_snapshot now = {NULL, n->boxes, n->proved, n->settled, s->best};
+    const survey_snapshot *m = s->before.box != NULL ? &s->before : &now;
     return json_pack("{s:o, s:I, s:I, s:f, s:o, s:o, s:o}", "question", question_json(s), "boxes",
-                     (json_int_t)(s->boxes_before + m->boxes), "made", (json_int_t)s->made,
+                     (json_int_t)(n->boxes_before + m->boxes), "made", (json_int_t)n->made,
                      "proved", m->proved, "settled", number_json(m->settled), "waiting",
                      waiting_json(s), "known", known_json(s, &m->best));
 }
@@ -159,14 +160,14 @@ static bool read_box(imp_survey *s, const json_t *list, survey_box *box)
 {
     const double share = number_of(json_array_get(list, 3));
     size_t number;
-    if (json_array_size(list) != 4 + 2 * s->count || !(share >= 0 && share <= 1)) return false;
+    if (json_array_size(list) != 4 + 2 * s->parameters || !(share >= 0 && share <= 1)) return false;
     *box = (survey_box){.key = number_of(json_array_get(list, 0)), .share = share};
-    if (!read_index(json_array_get(list, 1), (size_t)s->made, &number) ||
-        !read_index(json_array_get(list, 2), s->pair_count, &box->pair))
+    if (!read_index(json_array_get(list, 1), (size_t)s->counts.made, &number) ||
+        !read_index(json_array_get(list, 2), s->pairs.count, &box->pair))
         return false;
     box->number = number;
-    if (!(box->key >= (s->is_distance ? 0 : s->options.t_start))) return false;
-    for (size_t j = 0; j < s->count; ++j) {
+    if (!(box->key >= (s->question.is_distance ? 0 : s->question.options.t_start))) return false;
+    for (size_t j = 0; j < s->parameters; ++j) {
         const double lo = number_of(json_array_get(list, 4 + 2 * j));
         const double hi = number_of(json_array_get(list, 5 + 2 * j));
         if (!(lo >= s->lo[j] && hi <= s->hi[j] && lo <= hi)) return false;
@@ -181,7 +182,7 @@ static imp_code read_waiting(imp_survey *s, const json_t *list, bool *good, imp_
     box_queue_clear(&s->queue);
     *good = json_is_array(list);
     for (size_t k = 0; k < json_array_size(list) && *good; ++k) {
-        survey_box *box = malloc(sizeof *box + 2 * s->count * sizeof *box->range);
+        survey_box *box = malloc(sizeof *box + 2 * s->parameters * sizeof *box->range);
         if (box == NULL) return error_set_memory(error);
         *good = read_box(s, json_array_get(list, k), box);
         if (!*good)
@@ -210,7 +211,7 @@ static void keep_witness(imp_survey *s, const known_witness *w)
 {
     survey_incumbent *best = &s->best;
     best->is_known = true;
-    if (s->is_distance) {
+    if (s->question.is_distance) {
         best->distance = w->length;
         best->nearest = (imp_clearance){.t = w->t, .upper = w->length, .has_witness = true};
         best->nearest.a = w->a, best->nearest.b = w->b;
@@ -240,10 +241,10 @@ static bool read_known(imp_survey *s, const json_t *known)
     w.kind = (int)kind;
     normal = json_object_get(known, "normal");
     for (size_t i = 0; i < 3; ++i) w.normal[i] = number_of(json_array_get(normal, i));
-    if (!(w.t >= s->options.t_start && w.t <= s->options.t_end && w.length >= 0 &&
-          w.length < INFINITY && json_array_size(values) == s->count))
+    if (!(w.t >= s->question.options.t_start && w.t <= s->question.options.t_end && w.length >= 0 &&
+          w.length < INFINITY && json_array_size(values) == s->parameters))
         return false;
-    for (size_t j = 0; j < s->count; ++j) {
+    for (size_t j = 0; j < s->parameters; ++j) {
         s->best.values[j] = number_of(json_array_get(values, j));
         if (!(s->best.values[j] >= s->lo[j] && s->best.values[j] <= s->hi[j])) return false;
     }
@@ -257,15 +258,15 @@ static bool read_known(imp_survey *s, const json_t *known)
 static imp_code read_state(imp_survey *s, const json_t *state, bool *good, imp_error *error)
 {
     const json_t *made = json_object_get(state, "made"), *boxes = json_object_get(state, "boxes");
-    s->proved = number_of(json_object_get(state, "proved"));
-    s->settled = number_of(json_object_get(state, "settled"));
-    *good = json_is_integer(made) && json_integer_value(made) >= (json_int_t)s->made &&
-            json_is_integer(boxes) && json_integer_value(boxes) >= 0 && s->settled >= 0 &&
-            s->proved >= 0 && s->proved < INFINITY &&
+    s->counts.proved = number_of(json_object_get(state, "proved"));
+    s->counts.settled = number_of(json_object_get(state, "settled"));
+    *good = json_is_integer(made) && json_integer_value(made) >= (json_int_t)s->counts.made &&
+            json_is_integer(boxes) && json_integer_value(boxes) >= 0 && s->counts.settled >= 0 &&
+            s->counts.proved >= 0 && s->counts.proved < INFINITY &&
             read_known(s, json_object_get(state, "known"));
     if (!*good) return IMP_SUCCESS;
-    s->made = (uint64_t)json_integer_value(made);
-    s->boxes_before = (uint64_t)json_integer_value(boxes);
+    s->counts.made = (uint64_t)json_integer_value(made);
+    s->counts.boxes_before = (uint64_t)json_integer_value(boxes);
     return read_waiting(s, json_object_get(state, "waiting"), good, error);
 }
 
