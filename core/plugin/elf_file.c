@@ -31,26 +31,31 @@ static bool read_bytes(const elf_file *file, uint64_t offset, void *buffer, size
     return true;
 }
 
-static bool is_held(const elf_file *file, uint64_t offset, size_t length)
+static bool is_held(const elf_block *block, uint64_t offset, size_t length)
 {
-    return offset >= file->block_start && offset - file->block_start <= file->block_length &&
-           length <= file->block_length - (offset - file->block_start);
+    return offset >= block->start && offset - block->start <= block->length &&
+           length <= block->length - (offset - block->start);
 }
 
-static void read_block(elf_file *file, uint64_t offset)
+static void read_block(const elf_file *file, uint64_t offset, elf_block *block)
 {
     const uint64_t start = offset / ELF_BLOCK * ELF_BLOCK, rest = file->size - start;
-    file->block_start = start;
-    file->block_length = rest < ELF_BLOCK ? rest : ELF_BLOCK;
-    if (!read_bytes(file, start, file->block, file->block_length)) file->block_length = 0;
+    block->start = start;
+    block->length = rest < ELF_BLOCK ? rest : ELF_BLOCK;
+    if (!read_bytes(file, start, block->bytes, block->length)) block->length = 0;
 }
 
 bool elf_file_read(elf_file *file, uint64_t offset, void *buffer, size_t length)
 {
     if (!elf_file_has(file, offset, length)) return false;
-    if (!is_held(file, offset, length)) read_block(file, offset);
-    if (!is_held(file, offset, length)) return read_bytes(file, offset, buffer, length);
-    memcpy(buffer, file->block + (offset - file->block_start), length);
+    if (!is_held(&file->blocks[file->recent], offset, length)) {
+        file->recent ^= 1;
+        elf_block *other = &file->blocks[file->recent];
+        if (!is_held(other, offset, length)) read_block(file, offset, other);
+    }
+    const elf_block *block = &file->blocks[file->recent];
+    if (!is_held(block, offset, length)) return read_bytes(file, offset, buffer, length);
+    memcpy(buffer, block->bytes + (offset - block->start), length);
     return true;
 }
 

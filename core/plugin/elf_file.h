@@ -16,13 +16,19 @@
 
 enum { ELF_BLOCK = 4096 }; /* bytes */
 
+typedef struct elf_block {
+    uint64_t start;  /* in the file, bytes */
+    uint64_t length; /* bytes that are held */
+    unsigned char bytes[ELF_BLOCK];
+} elf_block;
+
 typedef struct elf_file {
     int fd;
     uint64_t size; /* bytes */
     Elf64_Ehdr header;
-    bool lacks_memory;                  /* a check was refused for lack of memory alone */
-    uint64_t block_start, block_length; /* the block that was read last, since tables are small */
-    unsigned char block[ELF_BLOCK];
+    bool lacks_memory;   /* a check was refused for lack of memory alone */
+    elf_block blocks[2]; /* read last: walks over a table look at another by turns */
+    unsigned recent;     /* of blocks, the one that was used last */
 } elf_file;
 
 /* Bytes of a file. Length 0: not found. */

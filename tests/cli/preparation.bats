@@ -86,7 +86,8 @@ setup() {
 
 @test "each suite is shown with its number, its result and how long it took" {
     mkdir -p tests/cli
-    printf 'ok 1 a\n# took 12 s (7 s of processors, 1 s of the system)\n' >tests/cli/x.log
+    printf 'ok 1 a\n# took 12 s (7 s of processors, 1 s of the system)\nPASS tests/cli/x.bats (exit status: 0)\n' \
+        >tests/cli/x.log
     printf 'make: x\nPASS: tests/cli/x.bats\nFAIL: tests/unit/test_y\n# PASS:  1\n' >made
     [ "$(show_progress . 10 <made)" = '[ 1/10] PASS: tests/cli/x.bats, 12 s
 [ 2/10] FAIL: tests/unit/test_y' ]
