@@ -157,7 +157,7 @@ static bool check_tables(elf_file *file, elf_probe *probe, elf_check *check)
     elf_loads loads;
     char text[200];
     const bool good = elf_segments_check(file, &loads, text, sizeof text) &&
-                      elf_tables_check(file, &loads, text, sizeof text);
+                      (probe->is_tried || elf_tables_check(file, &loads, text, sizeof text));
     if (good)
         snprintf(probe->sanitizer, sizeof probe->sanitizer, "%s",
                  elf_tables_runtime(file, &loads).name);
@@ -270,9 +270,8 @@ static bool run_checks(elf_file *file, bool all, elf_probe *probe)
     return passed;
 }
 
-bool elf_probe_file(const char *path, bool all, elf_probe *probe)
+static bool probe_file(const char *path, bool all, elf_probe *probe)
 {
-    *probe = (elf_probe){.file.size = 0};
     for (int id = 0; id < PROBE_CHECKS; ++id) probe->check[id].name = check_rows[id].name;
     /* Without O_NONBLOCK, opening a pipe waits for a writer. */
     elf_file file = {.fd = open(path, O_RDONLY | O_CLOEXEC | O_NONBLOCK | O_NOCTTY)};
@@ -280,6 +279,18 @@ bool elf_probe_file(const char *path, bool all, elf_probe *probe)
     probe->lacks_memory = file.lacks_memory;
     if (file.fd >= 0) close(file.fd);
     return passed;
+}
+
+bool elf_probe_file(const char *path, bool all, elf_probe *probe)
+{
+    *probe = (elf_probe){.is_tried = false};
+    return probe_file(path, all, probe);
+}
+
+bool elf_probe_tried(const char *path, elf_probe *probe)
+{
+    *probe = (elf_probe){.is_tried = true};
+    return probe_file(path, false, probe);
 }
 
 const elf_check *elf_probe_refusal(const elf_probe *probe)

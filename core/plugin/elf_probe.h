@@ -61,6 +61,7 @@ typedef struct elf_probe {
     elf_check check[PROBE_CHECKS];
     elf_identity file; /* once PROBE_FILE has passed */
 
+    bool is_tried;      /* PROBE_TABLES has passed before */
     bool lacks_memory;  /* the refusal tells nothing of the file */
     char sanitizer[32]; /* the runtime it needs, as libasan.so.8; empty: none */
 
@@ -73,6 +74,10 @@ typedef struct elf_probe {
 /* Runs the checks on a file: all that can be, or up to the first refusal. True if every check
  * passed. Never crashes, whatever the file holds. */
 bool elf_probe_file(const char *path, bool all, elf_probe *probe);
+
+/* Up to the first refusal, of a file whose PROBE_TABLES has passed before: that check, which takes
+ * longest, is left out. */
+bool elf_probe_tried(const char *path, elf_probe *probe);
 
 /* The first check that refused, or NULL. */
 const elf_check *elf_probe_refusal(const elf_probe *probe);

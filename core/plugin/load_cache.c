@@ -38,7 +38,7 @@ struct load_cache {
  * forgotten. */
 enum { RECORDS_MAX = 4096, CACHE_BYTES_MAX = 1 << 23 };
 
-#define FIRST_LINE "impinge trials 2 of " PACKAGE_VERSION "\n"
+#define FIRST_LINE "impinge trials 3 of " PACKAGE_VERSION "\n"
 
 /* $XDG_CACHE_HOME/impinge, else ~/.cache/impinge: both ignored when privileged. */
 static char *cache_folder(void)
@@ -166,6 +166,12 @@ bool load_cache_find(const load_cache *cache, const char *path, const elf_probe 
     *code = t->code;
     *text = t->text;
     return true;
+}
+
+bool load_cache_has_passed(const load_cache *cache, const char *path)
+{
+    const load_record *t = find(cache, path);
+    return t != NULL && t->code == IMP_SUCCESS && elf_identity_is_at(t->file, path);
 }
 
 bool load_cache_add(load_cache *cache, const char *path, const elf_probe *file, imp_code code,

@@ -53,6 +53,9 @@ load_cache *load_cache_read(void);
 bool load_cache_find(const load_cache *cache, const char *path, const elf_probe *file,
                      imp_code *code, const char **text);
 
+/* Whether the file that is there now was tried, and passed. */
+bool load_cache_has_passed(const load_cache *cache, const char *path);
+
 /* Replaces what is known of the path; false: no memory. */
 bool load_cache_add(load_cache *cache, const char *path, const elf_probe *file, imp_code code,
                     const char *text);

@@ -18,9 +18,15 @@
 
 #define ENTRY "impinge_plugin"
 
-static void step_read(plugin_file *plugin, const char *path, load_outcome *out)
+/* Should the file change after the cache was asked, step_probe finds nothing of it there, and tries
+ * it in a child, where its tables are checked. */
+static void step_read(plugin_file *plugin, const char *path, const load_cache *cache,
+                      load_outcome *out)
 {
-    if (elf_probe_file(path, false, &plugin->facts)) return;
+    const bool is_tried = cache != NULL && load_cache_has_passed(cache, path);
+    if (is_tried ? elf_probe_tried(path, &plugin->facts)
+                 : elf_probe_file(path, false, &plugin->facts))
+        return;
     const elf_check *check = elf_probe_refusal(&plugin->facts);
     load_outcome_refuse(out, LOAD_READ, check->name, "%s", check->text);
     if (plugin->facts.lacks_memory) out->code = error_set_memory(&out->error);
@@ -143,7 +149,7 @@ static void try_out(const char *path, load_outcome *out)
         out->code = IMP_ERROR_MEMORY;
         return;
     }
-    step_read(&plugin, path, out);
+    step_read(&plugin, path, NULL, out);
     if (out->code == IMP_SUCCESS) run(&plugin, path, out);
     plugin_file_close(&plugin, path);
     refuse_changes(&before, out);
@@ -191,7 +197,7 @@ imp_code plugin_file_open(plugin_file *plugin, const char *path, load_cache *cac
     assert(path[0] == '/');
     *plugin = (plugin_file){.handle = NULL};
     load_outcome out = {.code = IMP_SUCCESS};
-    step_read(plugin, path, &out);
+    step_read(plugin, path, cache, &out);
     imp_code code = outcome_error(&out, error);
     if (code == IMP_SUCCESS) code = step_probe(plugin, path, cache, error);
     if (code == IMP_SUCCESS) {

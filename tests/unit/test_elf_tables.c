@@ -283,6 +283,24 @@ START_TEST(there_is_one_dynamic_table)
 }
 END_TEST
 
+START_TEST(tables_of_a_file_that_was_tried_are_not_checked_again)
+{
+    memset(plugin.at + value_at(DT_STRSZ), 0xff, 8);
+    sandbox box = sandbox_new();
+    sandbox_write(&box, "p.so", plugin.at, plugin.length);
+    const sandbox_path path = sandbox_file(&box, "p.so");
+    elf_probe found;
+    ck_assert(!elf_probe_file(path.at, false, &found));
+    ck_assert_int_eq(found.check[PROBE_TABLES].verdict, PROBE_REFUSED);
+    ck_assert(elf_probe_tried(path.at, &found));
+    ck_assert_str_eq(found.name, "kit");
+    plugin.length /= 2; /* what is cut short is refused all the same */
+    sandbox_write(&box, "p.so", plugin.at, plugin.length);
+    ck_assert(!elf_probe_tried(path.at, &found));
+    sandbox_remove(&box);
+}
+END_TEST
+
 int main(void)
 {
     const TTest *const tests[] = {strings_and_names_must_be_there,
@@ -293,7 +311,8 @@ int main(void)
                                   relocations_write_no_byte_twice,
                                   what_is_called_is_code_of_the_object,
                                   offsets_in_a_thread_must_stay_inside,
-                                  there_is_one_dynamic_table};
+                                  there_is_one_dynamic_table,
+                                  tables_of_a_file_that_was_tried_are_not_checked_again};
     return suite_main_with("elf_tables", tests, sizeof tests / sizeof tests[0], read_plugin,
                            free_plugin);
 }
