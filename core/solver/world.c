@@ -37,8 +37,8 @@ static imp_code turn_normal(const surface *s, size_t maps, const witness *found,
     vec3 from = found->point[0];
     const double length = arrow_length(&from, in_world->side[0].point);
     vec3 to = vec3_sub(from, vec3_scale(found->normal, -length));
-    imp_status status = surface_move_outward(s, maps, t, from.x);
-    if (status == IMP_STATUS_OK) status = surface_move_outward(s, maps, t, to.x);
+    imp_status status = surface_move_outward(s, maps, t, 1, from.x);
+    if (status == IMP_STATUS_OK) status = surface_move_outward(s, maps, t, 1, to.x);
     if (status != IMP_STATUS_OK) return fault(s, status, t, error);
     const vec3 image = vec3_sub(to, from);
     memcpy(in_world->normal, vec3_scale(image, 1 / vec3_norm(image)).x, sizeof in_world->normal);

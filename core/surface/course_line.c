@@ -45,8 +45,7 @@ static bool place_at(const surface *s, double t, rigid_numbers *place)
 {
     const size_t inner = surface_inner_maps(s);
     double x[3][3] = {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}};
-    for (int k = 0; k < 3; ++k)
-        if (surface_move_outward(s, inner, t, x[k]) != IMP_STATUS_OK) return false;
+    if (surface_move_outward(s, inner, t, 3, x[0]) != IMP_STATUS_OK) return false;
     for (int i = 0; i < 3; ++i) {
         place->shift[i] = x[0][i];
         for (int j = 0; j < 2; ++j) place->turn[i][j] = x[1 + j][i] - x[0][i];

@@ -259,8 +259,8 @@ size_t surface_common_maps(const surface *a, const surface *b);
  * (IMP_FLAG_TURNS_EXACTLY) and so preserve distances. */
 size_t surface_common_motion(const surface *a, const surface *b);
 
-/* Applies the maps after the first `maps` to a point at time t, in place. */
-imp_status surface_move_outward(const surface *s, size_t maps, double t, double x[3]);
+/* Applies the maps after the first `maps` to n <= 16 points at time t, in place. */
+imp_status surface_move_outward(const surface *s, size_t maps, double t, size_t n, double *x);
 
 /* Holds the instance of its type for the caller, who puts it into a surface of another scene. */
 shared_instance *surface_share(const surface *s);

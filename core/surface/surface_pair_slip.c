@@ -142,7 +142,7 @@ static bool surely_moves(const surface *const s[2], const imp_model bare[2][3],
         double x[2][3], way[3];
         memcpy(x, middle, sizeof x);
         for (int k = 0; k < 2; ++k)
-            if (surface_move_outward(s[k], 0, t, x[k]) != IMP_STATUS_OK) return false;
+            if (surface_move_outward(s[k], 0, t, 1, x[k]) != IMP_STATUS_OK) return false;
         for (int i = 0; i < 3; ++i) way[i] = x[1][i] - x[0][i];
         const double apart = sqrt(slip_dot(way, way));
         if (!(apart >= least)) least = apart;

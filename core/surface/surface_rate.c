@@ -4,6 +4,7 @@
 
 #include "core/surface/surface_internal.h"
 
+#include <assert.h>
 #include <string.h>
 
 #include "core/base/rounding.h"
@@ -106,12 +107,14 @@ imp_status surface_eval(const surface *s, size_t n, const double *p, double *x, 
     return eval_under(s, s->map_count, n, p, x, error);
 }
 
-imp_status surface_move_outward(const surface *s, size_t maps, double t, double x[3])
+imp_status surface_move_outward(const surface *s, size_t maps, double t, size_t n, double *x)
 {
-    const double p[3] = {0, 0, t};
+    double p[3 * BATCH];
     imp_status status = IMP_STATUS_OK;
+    assert(n <= BATCH);
+    for (size_t j = 0; j < n; ++j) p[3 * j] = p[3 * j + 1] = 0, p[3 * j + 2] = t;
     for (size_t k = maps; k < s->map_count && status == IMP_STATUS_OK; ++k)
-        status = batch_through_map(&s->maps[k], 1, p, x, NULL);
+        status = batch_through_map(&s->maps[k], n, p, x, NULL);
     return status;
 }
 

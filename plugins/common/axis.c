@@ -122,23 +122,34 @@ void axis_turn(const axis_frame *frame, imp_model angle, const imp_model w[3], i
  *
  * and the sum with the center rounds once. Underflow: fewer than 32 products, each multiplied by 1
  * or |w_j|. */
-bool axis_turn_point(const axis_frame *frame, const double center[3], const imp_model *angle,
-                     const double at[3], double x[3], double error[3])
+axis_point_matrix axis_matrix_of_points(const axis_frame *frame, const imp_model *angle)
 {
     enum { POINT_ROUNDING = 8 };
     _Static_assert(1 + 3 + 3 <= POINT_ROUNDING, "rounding of a turned point");
     const double s = sin(angle->a), c = cos(angle->a), trig = angle->e + IMP_LIBM + IMP_TINY;
+    axis_point_matrix matrix;
+    for (int i = 0; i < 3; ++i)
+        for (int j = 0; j < 3; ++j) {
+            const near_constant along = frame->along[i][j], across = frame->across[i][j],
+                                turned = frame->turned[i][j];
+            const double moving = fabs(across.value) + fabs(turned.value);
+            matrix.entry[i][j] = c * across.value + s * turned.value + along.value;
+            matrix.off[i][j] = along.error + across.error + turned.error + trig * moving +
+                               POINT_ROUNDING * IMP_U * (fabs(along.value) + moving) + IMP_TINY;
+        }
+    return matrix;
+}
+
+bool axis_turn_point(const axis_point_matrix *matrix, const double center[3], const double at[3],
+                     double x[3], double error[3])
+{
     bool finite = true;
     for (int i = 0; i < 3; ++i) {
         double sum = 0, off = IMP_TINY;
         for (int j = 0; j < 3; ++j) {
-            const near_constant along = frame->along[i][j], across = frame->across[i][j],
-                                turned = frame->turned[i][j];
-            const double w = at[j] - center[j], moving = fabs(across.value) + fabs(turned.value);
-            sum += (c * across.value + s * turned.value + along.value) * w;
-            off += (along.error + across.error + turned.error + trig * moving +
-                    POINT_ROUNDING * IMP_U * (fabs(along.value) + moving) + IMP_TINY) *
-                   fabs(w);
+            const double w = at[j] - center[j];
+            sum += matrix->entry[i][j] * w;
+            off += matrix->off[i][j] * fabs(w);
         }
         x[i] = sum + center[i];
         error[i] = (off + IMP_U * fabs(x[i])) * IMP_SLACK;

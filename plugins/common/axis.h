@@ -71,10 +71,18 @@ axis_frame axis_frame_of(const double axis[3]);
 /* Turns w by an angle. */
 void axis_turn(const axis_frame *frame, imp_model angle, const imp_model w[3], imp_model out[3]);
 
-/* Turns a point about the axis through the center, by an angle that is a point, too (imp_is_point),
- * and bounds its errors, at a small part of what the models cost. False: it is not finite. */
-bool axis_turn_point(const axis_frame *frame, const double center[3], const imp_model *angle,
-                     const double at[3], double x[3], double error[3]);
+/* The matrix that turns points by one angle, and bounds of what each entry adds to their errors. */
+typedef struct axis_point_matrix {
+    double entry[3][3], off[3][3]; /* 1 */
+} axis_point_matrix;
+
+/* Makes it of an angle that is a point (imp_is_point). */
+axis_point_matrix axis_matrix_of_points(const axis_frame *frame, const imp_model *angle);
+
+/* Turns a point about the axis through the center, and bounds its errors, at a small part of what
+ * the models cost. False: it is not finite. */
+bool axis_turn_point(const axis_point_matrix *matrix, const double center[3], const double at[3],
+                     double x[3], double error[3]);
 
 /* Makes the matrix that turns by an angle, which depends on one parameter at most. */
 void axis_matrix(const axis_frame *frame, imp_model angle, imp_model turn[3][3]);

@@ -88,24 +88,35 @@ static void turned(const void *self, imp_model x, imp_model y, imp_model z, imp_
 }
 IMP_MAP_FORMULA(turned)
 
-/* p holds x, y, z and t. */
-static imp_status point_eval(const rotate_instance *s, const double *p, double *x, double *error)
+/* Sets the angle at time t. */
+static imp_status angle_at(const rotate_instance *s, double t, imp_model *angle)
 {
-    imp_model angle;
-    if (!course_is_defined(&s->angle, p[3], p[3])) return IMP_STATUS_DOMAIN;
-    course_at(&s->angle, 1, imp_num(p[3]), &angle);
-    if (imp_is_point(&angle) && axis_turn_point(&s->axis, s->center, &angle, p, x, error))
-        return IMP_STATUS_OK;
-    return turned_eval(s, 1, p, x, error);
+    if (!course_is_defined(&s->angle, t, t)) return IMP_STATUS_DOMAIN;
+    course_at(&s->angle, 1, imp_num(t), angle);
+    return IMP_STATUS_OK;
 }
 
+/* Points of one time share the matrix. p holds x, y, z and t. */
 static imp_status rotate_eval(const void *self, size_t n, const double *p, double *x, double *error)
 {
+    const rotate_instance *s = self;
+    axis_point_matrix matrix;
     double own[3];
-    imp_status status = IMP_STATUS_OK;
-    for (size_t k = 0; k < n && status == IMP_STATUS_OK; ++k)
-        status = point_eval(self, p + 4 * k, x + 3 * k, error != NULL ? error + 3 * k : own);
-    return status;
+    bool by_matrix = false;
+    for (size_t k = 0; k < n; ++k, p += 4, x += 3) {
+        double *off = error != NULL ? error + 3 * k : own;
+        if (k == 0 || p[3] != p[-1]) {
+            imp_model angle;
+            const imp_status status = angle_at(s, p[3], &angle);
+            if (status != IMP_STATUS_OK) return status;
+            by_matrix = imp_is_point(&angle);
+            if (by_matrix) matrix = axis_matrix_of_points(&s->axis, &angle);
+        }
+        if (by_matrix && axis_turn_point(&matrix, s->center, p, x, off)) continue;
+        const imp_status status = turned_eval(s, 1, p, x, off);
+        if (status != IMP_STATUS_OK) return status;
+    }
+    return IMP_STATUS_OK;
 }
 
 static imp_status rotate_rate(const void *self, const imp_box4 *box, imp_map_rates *rates)
