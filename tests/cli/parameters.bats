@@ -190,12 +190,12 @@ in_parts() {
 @test "a parameter of the command line that nobody declares or follows is refused" {
     arms | sed 's/"a": \[/"angle": [/; s/"clock": "a"/"clock": "angle"/' >arms.json
     for verb in solve clearance; do
-        fails 2 "got 'angel', which the scene does not declare" "$IMPINGE" $verb arms.json \
+        fails 2 "--parameter: the scene has no parameter 'angel'; did you mean 'angle'?" "$IMPINGE" $verb arms.json \
             --parameter angel=0,1
         [[ $stderr == *"did you mean 'angle'? its parameters are: angle, b"* ]]
     done
     arms | sed 's/"clock": "a"/"clock": [-1, 1]/' >own.json
-    fails 2 "got 'rotate#1'" "$IMPINGE" solve own.json --parameter rotate#1=0,1
+    fails 2 "no parameter 'rotate#1'" "$IMPINGE" solve own.json --parameter rotate#1=0,1
     [[ $stderr == *'its parameters are: a, b'* ]]
     fails 2 'its parameters are: none' "$IMPINGE" pair sphere 'sphere center=3,0,0' --parameter x=0,1
     fails 2 'its parameters are: x' "$IMPINGE" pair 'sphere ! translate velocity=1,0,0 clock=x' \
@@ -303,10 +303,10 @@ three() {
     slow_arms >arms.json
     run -3 "$IMPINGE" clearance arms.json --profile 4 --tolerance 0.1 --max-pairs 30000
     [ "${lines[-1]}" = '0.5,1,0,,,,,,,' ]
-    fails 2 "the scene has no parameter 'c'" "$IMPINGE" clearance arms.json --profile 4 --over c
+    fails 2 "--over: the scene has no parameter 'c'; its parameters are: a, b" "$IMPINGE" clearance arms.json --profile 4 --over c
     fails 2 'belongs to --profile' "$IMPINGE" clearance arms.json --over b
     scene >plain.json
-    fails 2 'the scene has no parameters' "$IMPINGE" clearance plain.json --profile 2 --over b
+    fails 2 "--over: the scene has no parameter 'b'; its parameters are: none" "$IMPINGE" clearance plain.json --profile 2 --over b
 }
 
 @test "solve --refine answers for all values at each gamma" {
@@ -368,7 +368,7 @@ three() {
     run -0 --separate-stderr "$IMPINGE" view arms.json --sweep a --at b=0 -o swept.glb --frames 5
     run -0 --separate-stderr "$IMPINGE" view arms.json --sweep a --at b=0 -o swept.html --frames 5
     grep -q 'arms.json, t is a' swept.html
-    fails 2 "--sweep: the scene has no parameter 'c'" "$IMPINGE" view arms.json --sweep c -o x.svg
+    fails 2 "--sweep: the scene has no parameter 'c'; its parameters are: a, b" "$IMPINGE" view arms.json --sweep c -o x.svg
     scene >plain.json
     fails 2 "--sweep: the scene has no parameter 'c'" "$IMPINGE" view plain.json --sweep c -o x.svg
     "$IMPINGE" solve arms.json --json >result.json

@@ -73,10 +73,10 @@ setup() {
 }
 
 @test "values that a scene does not have are refused" {
-    fails 2 "--at: the scene has no parameter 'bb'" "$IMPINGE" view "$data/spindle.json" -o x.png --at bb=1
+    fails 2 "--at: the scene has no parameter 'bb'; its parameters are: " "$IMPINGE" view "$data/spindle.json" -o x.png --at bb=1
     fails 2 "--at: 'b' must be from -1.92 to 1.92, not '3'" \
         "$IMPINGE" view "$data/spindle.json" -o x.png --at b=3
-    fails 2 '--at b: the scene has no parameters' "$IMPINGE" view "$data/arm.json" -o x.png --at b=1
+    fails 2 "--at: the scene has no parameter 'b'; its parameters are: none" "$IMPINGE" view "$data/arm.json" -o x.png --at b=1
     fails 2 '--at must be a finite number' "$IMPINGE" view "$data/spindle.json" -o x.png --at b=1,1,2
     [ ! -e x.png ]
 }

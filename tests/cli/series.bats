@@ -157,6 +157,17 @@ spaced() {
     [ $(($(wc -l <out) - 1 + $(jq .not_listed.clear <<<"$output"))) -eq 4498500 ]
 }
 
+@test "a list of all pairs ends a tenth and 0.1 s behind the limit, and says how many are left" {
+    spaced 3000 >spaced.json
+    run -3 bash -c '"$IMPINGE" solve spaced.json --each --list-all --max-seconds 1e-9 --threads 1 --json >out'
+    output=$(tail -n 1 out)
+    valid result
+    json '.not_listed.clear == 0 and .not_listed.not_examined > 0 and .reason == "max-seconds"'
+    [ $(($(wc -l <out) - 1 + $(jq .not_listed.not_examined <<<"$output"))) -eq 4498500 ]
+    run -0 bash -c '"$IMPINGE" solve spaced.json --each --list-all --max-seconds 1e-9 --threads 1 | tail -n 1'
+    [[ $output == 'not examined: '*' pairs of bodies (the time limit is reached); there was no time to list them' ]]
+}
+
 @test "a signal ends the output" {
     spaced 3000 >spaced.json
     mkfifo lines

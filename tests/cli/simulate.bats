@@ -219,6 +219,14 @@ oblique() {
     output=$(<limited)
     json '.reason == "max-seconds" and .stats.searches == 0'
     has_sanitizers || jq -en --argjson seconds "$seconds" '$seconds < 4'
+    # Where a limit leaves no time to read and to write, nothing is written.
+    for limit in 1e-09 0.1 0.3; do
+        rm -f out.json
+        seconds=$({ time "$IMPINGE" simulate many.json -o out.json --max-seconds "$limit" 2>said || true; } 2>&1)
+        echo "$limit: $seconds seconds of the processor"
+        [ -e out.json ] || grep -q "simulate: --max-seconds $limit is over before the motion of many.json begins" said
+        has_sanitizers || jq -en --argjson seconds "$seconds" "\$seconds < 1.1 * $limit + 0.25"
+    done
     jq -c 'del(.ignore)' many.json >all.json
     run -3 --separate-stderr "$IMPINGE" simulate all.json -o out.json --json --max-bytes 10M
     json '.error | contains("--max-bytes 10485760 is not enough to read this")'

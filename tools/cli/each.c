@@ -8,6 +8,7 @@
 #include <stdio.h>
 #include <stdlib.h>
 
+#include "core/common/clock.h"
 #include "tools/cli/interrupt.h"
 #include "tools/cli/output.h"
 #include "tools/cli/progress.h"
@@ -59,10 +60,10 @@ static bool advance(void *context, double t_lower)
 }
 
 /* Whether the rest is only counted: with hundreds of millions of lines output would take longer
- * than the search. */
+ * than the search. A list that is asked for has a tenth of the limit, and 0.1 s, after it. */
 static bool only_counts(const printing *p)
 {
-    if (p->list_all) return interrupt_came();
+    if (p->list_all) return interrupt_came() || clock_seconds() >= p->e->until_listed;
     return p->rest.verdict == IMP_VERDICT_UNDECIDED || each_is_over(p->e);
 }
 
@@ -141,8 +142,9 @@ static exit_status print_counts(printing *p)
                            p->e->args->verb->name);
     if (p->clear > 0) printf("clear, and not listed: %zu pairs of bodies\n", p->clear);
     if (p->unexamined > 0)
-        printf("not examined: %zu pairs of bodies (%s); --list-all lists them\n", p->unexamined,
-               result_excuse(reason).why);
+        printf("not examined: %zu pairs of bodies (%s)%s\n", p->unexamined,
+               result_excuse(reason).why,
+               p->list_all ? "; there was no time to list them" : "; --list-all lists them");
     return EXIT_ANSWERED;
 }
 

@@ -23,6 +23,7 @@ typedef struct each {
     const imp_scene *scene;
     crew crew;            /* threads that the query is divided by */
     double until;         /* seconds of the clock: the limit of time; INFINITY: none */
+    double until_listed;  /* the end of a list of all pairs */
     parts_plan plan;      /* of surveys only the count */
     survey_parts *survey; /* NULL: there are no parameters */
     imp_result *answers;  /* of the parts; all bytes 0: not there yet */

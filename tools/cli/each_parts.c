@@ -57,12 +57,13 @@ static exit_status begin_queries(each *e, imp_scene *scene, const arguments *arg
 
 exit_status each_begin(each *e, imp_scene *scene, const arguments *args, size_t threads)
 {
-    const double limit = query_options(scene, args).max_seconds;
+    const double limit = query_options(scene, args).max_seconds, now = clock_seconds();
     json_object_seed(0); /* before there are threads */
     *e = (each){.args = args,
                 .scene = scene,
                 .crew = {threads},
-                .until = limit > 0 ? clock_seconds() + limit : INFINITY};
+                .until = limit > 0 ? now + limit : INFINITY,
+                .until_listed = limit > 0 ? now + 1.1 * limit + 0.1 : INFINITY};
     const bool is_survey = imp_scene_parameter_count(scene) > 0;
     const exit_status status =
         is_survey ? begin_surveys(e, scene, args, threads) : begin_queries(e, scene, args, threads);

@@ -6,7 +6,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "core/common/spelling.h"
+#include "tools/cli/scene_values.h"
 #include "tools/cli/survey.h"
 #include "tools/cli/verbs.h"
 
@@ -68,43 +68,31 @@ static bool is_given(const char *name, const arguments *args)
     return false;
 }
 
-/* Lists the names that --parameter may have, as far as there is room: not those of parameters that
- * surfaces and maps have of their own. */
-static const char *offer_names(const imp_scene *scene, size_t declared, const arguments *args,
-                               spelling_search *near, char *list, size_t size)
-{
-    imp_scene_parameter_info info;
-    size_t used = 0;
-    for (size_t k = 0; imp_scene_parameter(scene, k, &info); ++k) {
-        if (k >= declared && !(info.is_followed && is_given(info.name, args))) continue;
-        spelling_offer(near, info.name);
-        if (used < size)
-            used += (size_t)snprintf(list + used, size - used, "%s%s", used > 0 ? ", " : "",
-                                     message_shown(info.name).text);
-    }
-    return used > 0 ? list : "none";
-}
+/* What the scene declares, or what the command line gives and a surface or map follows. */
+typedef struct known_names {
+    size_t declared;
+    const arguments *args;
+} known_names;
 
-static imp_code refuse_name(const imp_scene *scene, const char *name, size_t declared,
-                            const arguments *args, imp_error *error)
+/* Not parameters that surfaces and maps have of their own. */
+static bool is_known(const void *context, const imp_scene *scene, size_t k)
 {
-    char list[256] = "";
-    spelling_search near = {.wanted = name};
-    const char *names = offer_names(scene, declared, args, &near, list, sizeof list);
-    snprintf(error->text, sizeof error->text,
-             "--parameter: got '%.80s', which the scene does not declare, and which no surface or "
-             "map has as its clock%s%.80s%s its parameters are: %s",
-             message_shown(name).text, near.best != NULL ? "; did you mean '" : "",
-             near.best != NULL ? near.best : "", near.best != NULL ? "'?" : ";", names);
-    return error->code = IMP_ERROR_USAGE;
+    const known_names *known = context;
+    imp_scene_parameter_info info;
+    return imp_scene_parameter(scene, k, &info) &&
+           (k < known->declared || (info.is_followed && is_given(info.name, known->args)));
 }
 
 imp_code survey_check_parameters(const imp_scene *scene, size_t declared, const arguments *args,
                                  imp_error *error)
 {
     imp_scene_parameter_info info;
-    for (size_t k = declared; imp_scene_parameter(scene, k, &info); ++k)
-        if (!info.is_followed && is_given(info.name, args))
-            return refuse_name(scene, info.name, declared, args, error);
+    const known_names known = {declared, args};
+    for (size_t k = declared; imp_scene_parameter(scene, k, &info); ++k) {
+        if (info.is_followed || !is_given(info.name, args)) continue;
+        const scene_values_wrong wrong = {
+            "parameter", info.name, strlen(info.name), is_known, &known};
+        return scene_values_refuse(&wrong, scene, error);
+    }
     return IMP_SUCCESS;
 }

@@ -10,7 +10,6 @@
 #include <string.h>
 
 #include "core/common/clock.h"
-#include "core/common/spelling.h"
 #include "tools/cli/interrupt.h"
 #include "tools/cli/query.h"
 #include "tools/cli/scene_values.h"
@@ -76,13 +75,8 @@ static exit_status find_over(survey_parts *p)
     if (over == NULL) return EXIT_ANSWERED;
     p->over = scene_values_find(p->scene, over->text, strlen(over->text));
     if (imp_scene_parameter(p->scene, p->over, &info)) return EXIT_ANSWERED;
-    spelling_search near = {.wanted = over->text};
-    for (size_t k = 0; imp_scene_parameter(p->scene, k, &info); ++k)
-        spelling_offer(&near, info.name);
-    return complain(EXIT_USAGE, p->args->verb->name,
-                    "--over: the scene has no parameter '%.80s'%s%.80s%s",
-                    message_shown(over->text).text, near.best != NULL ? "; did you mean '" : "",
-                    near.best != NULL ? near.best : "", near.best != NULL ? "'?" : "");
+    return scene_values_complain(p->scene, "over", over->text, strlen(over->text),
+                                 p->args->verb->name);
 }
 
 exit_status survey_parts_slices(survey_parts *p, imp_scene *scene,

@@ -3,12 +3,14 @@
 #include <config.h>
 
 #include <math.h>
+#include <string.h>
 #include <unistd.h>
 
 #include "tools/cli/clearance_measure.h"
 #include "tools/cli/interrupt.h"
 #include "tools/cli/proof_output.h"
 #include "tools/cli/query.h"
+#include "tools/cli/scene_values.h"
 #include "tools/cli/survey.h"
 #include "tools/cli/verbs.h"
 
@@ -66,8 +68,10 @@ static exit_status measure_scene(imp_scene *scene, const arguments *args)
 {
     const imp_clearance_options asked = asked_for(args);
     if (survey_is_needed(scene, args)) return survey_clearance(scene, &asked, args);
-    if (arguments_option(args, "over") != NULL)
-        return complain(EXIT_USAGE, args->verb->name, "--over: the scene has no parameters");
+    const option_value *over = arguments_option(args, "over");
+    if (over != NULL)
+        return scene_values_complain(scene, "over", over->text, strlen(over->text),
+                                     args->verb->name);
     return clearance_measure(scene, &asked, args);
 }
 

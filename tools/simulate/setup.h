@@ -34,13 +34,16 @@ typedef struct setup {
     imp_scene *still; /* of `stripped` */
     imp_options options;
     limits limits;
+    double max_seconds; /* that were asked for; 0: no limit */
+    double begun;       /* on the clock of the thread */
     vec gravity;
     actor *actors;
     size_t count;
 } setup;
 
-/* Reads the scene that the operand names. Complains. Where a limit comes first, masses are not
- * integrated, and the simulation must end at its start. Call setup_free in any case. */
+/* Reads the scene that the operand names. Complains, with EXIT_UNDECIDED where --max-seconds leaves
+ * no time to write a motion. Where a limit comes first, masses are not integrated, and the
+ * simulation must end at its start. Call setup_free in any case. */
 exit_status setup_read(setup *s, const arguments *args);
 void setup_free(setup *s);
 

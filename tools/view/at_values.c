@@ -10,7 +10,6 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "core/common/spelling.h"
 #include "tools/cli/scene_values.h"
 #include "tools/cli/verbs.h"
 
@@ -50,23 +49,6 @@ bool at_values_time(const char *text, char *copy, size_t size)
 
 /* --- Values ----------------------------------------------------------------------------------- */
 
-static exit_status refuse_name(const imp_scene *scene, const at_part *part, const arguments *args)
-{
-    imp_scene_parameter_info info;
-    char name[128];
-    snprintf(name, sizeof name, "%.*s", (int)(part->equals - part->at), part->at);
-    spelling_search near = {.wanted = name};
-    for (size_t k = 0; imp_scene_parameter(scene, k, &info); ++k) spelling_offer(&near, info.name);
-    if (imp_scene_parameter_count(scene) == 0)
-        return complain(EXIT_USAGE, args->verb->name, "--at %s: the scene has no parameters", name);
-    if (near.best != NULL)
-        return complain(EXIT_USAGE, args->verb->name,
-                        "--at: the scene has no parameter '%s', did you mean '%s'?", name,
-                        near.best);
-    return complain(EXIT_USAGE, args->verb->name,
-                    "--at: the scene has no parameter '%s'; `impinge info` lists them", name);
-}
-
 /* Returns the index of the parameter of --sweep; SIZE_MAX: it is not given. */
 static size_t swept(const imp_scene *scene, const arguments *args)
 {
@@ -92,7 +74,8 @@ static exit_status set_value(const imp_scene *scene, const at_part *part, double
     const size_t count = imp_scene_parameter_count(scene);
     const size_t k = scene_values_find(scene, part->at, length);
     if (is_number && is_time(part, args)) return values[count] = value, EXIT_ANSWERED;
-    if (!imp_scene_parameter(scene, k, &info)) return refuse_name(scene, part, args);
+    if (!imp_scene_parameter(scene, k, &info))
+        return scene_values_complain(scene, "at", part->at, length, args->verb->name);
     if (!is_number || !(value >= info.lo && value <= info.hi))
         return complain(EXIT_USAGE, args->verb->name,
                         "--at: '%s' must be from %.10g to %.10g, not '%.*s'", info.name, info.lo,
@@ -145,9 +128,8 @@ static exit_status check_sweep(const imp_scene *scene, const arguments *args)
 {
     const option_value *over = arguments_option(args, "sweep");
     if (over == NULL || swept(scene, args) < imp_scene_parameter_count(scene)) return EXIT_ANSWERED;
-    return complain(EXIT_USAGE, args->verb->name,
-                    "--sweep: the scene has no parameter '%.80s'; `impinge info` lists them",
-                    message_shown(over->text).text);
+    return scene_values_complain(scene, "sweep", over->text, strlen(over->text),
+                                 args->verb->name);
 }
 
 /* Returns the scene at the values, or the one that sweeps a parameter. NULL: it complained. */
