@@ -16,6 +16,7 @@ struct imp_call {
     const char *_Atomic type; /* NULL: it is in none */
     const char *_Atomic callback;
     const char *last; /* `type` of the callback begun last, also after its end */
+    double until;     /* by when callbacks must answer, on the clock; 0: at any time */
 };
 
 /* Returns the record of this thread. */
@@ -34,6 +35,16 @@ static inline imp_call *active_callback_begin(const char *type, const char *call
 static inline void active_callback_end(imp_call *call)
 {
     atomic_store_explicit(&call->type, NULL, memory_order_release);
+}
+
+/* Sets by when callbacks of this thread must answer (seconds of the clock; 0: at any time), and
+ * returns what was set before. Only isolated ones can be held to it (worker.h). */
+static inline double active_callback_limit(double until)
+{
+    imp_call *call = active_callback_own();
+    const double before = call->until;
+    call->until = until;
+    return before;
 }
 
 /* The type and callback begun last in this thread, for messages about what it answered. */

@@ -57,7 +57,8 @@ typedef enum imp_code {
     IMP_ERROR_PLUGIN, /* a plugin broke the ABI's promises */
     IMP_ERROR_FILE,   /* a file cannot be read or written */
     IMP_ERROR_MEMORY, /* memory ran out */
-    IMP_ERROR_LIMIT   /* reading a scene has reached a limit (imp_registry_limit_reading) */
+    IMP_ERROR_LIMIT   /* reading a scene has reached a limit (imp_registry_limit_reading); or an
+                       * isolated type had not answered when max_seconds was over */
 } imp_code;
 
 /* Misuse: where a function needs an object, a text or a place that is NULL, or an index is out of

@@ -4,6 +4,7 @@
 
 #include "core/base/active_callback.h"
 #include "core/base/unconst.h"
+#include "core/common/clock.h"
 #include "core/common/system_error.h"
 #include "core/plugin/isolate_internal.h"
 #include "core/plugin/value_bytes.h"
@@ -132,7 +133,12 @@ static imp_status create(isolated *i, const imp_value *values, imp_create_error 
 
 imp_status isolate_create(isolated *i, const imp_value *values, imp_create_error *why)
 {
+    const double seconds = i->limits.seconds;
+    const double before = active_callback_limit(seconds > 0 ? clock_seconds() + seconds : 0);
     const imp_status status = create(i, values, why);
+    active_callback_limit(before);
+    if (status == SURFACE_LATE) i->end = READING_OUT_OF_TIME;
+    if (status == SURFACE_LATE) return IMP_STATUS_INTERNAL;
     if (status > IMP_STATUS_INTERNAL) name_callback(i);
     return status;
 }

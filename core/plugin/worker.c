@@ -2,6 +2,7 @@
  * SPDX-License-Identifier: Apache-2.0 */
 #include <config.h>
 
+#include "core/base/active_callback.h"
 #include "core/common/child_process.h"
 #include "core/common/clock.h"
 #include "core/plugin/worker.h"
@@ -9,6 +10,7 @@
 
 #include <errno.h>
 #include <fcntl.h>
+#include <math.h>
 #include <poll.h>
 #include <signal.h>
 #include <stdbool.h>
@@ -19,7 +21,8 @@
 #include <sys/wait.h>
 #include <unistd.h>
 
-enum { GLANCE_MS = 100 }; /* between looks at whether the worker lives */
+static const double glance = 0.1;      /* seconds between looks at whether the worker lives */
+static const double late_slack = 0.05; /* seconds beyond the time of all: a type may stop by itself */
 
 /* --- In the new process ----------------------------------------------------------------------- */
 
@@ -162,37 +165,48 @@ static imp_status look(const worker *w)
     return end.si_code != CLD_EXITED && end.si_status == SIGKILL ? SURFACE_KILLED : SURFACE_CRASHED;
 }
 
-/* A stopped process is not the plugin's fault either. */
-static imp_status look_at_deadline(const worker *w)
+/* When the answer must be there, and what it is if it is not. */
+typedef struct deadline {
+    double until;
+    imp_status end;
+} deadline;
+
+static deadline deadline_of_request(void)
 {
-    siginfo_t end;
-    return find_end(w, WSTOPPED, &end) && end.si_pid != 0 ? SURFACE_KILLED : SURFACE_HUNG;
+    const double until = active_callback_own()->until;
+    const deadline usual = {clock_seconds() + WORKER_DEADLINE_S, SURFACE_HUNG};
+    const deadline of_all = {until + late_slack, SURFACE_LATE};
+    return until > 0 && of_all.until < usual.until ? of_all : usual;
 }
 
-static struct timespec in_a_glance(void)
+/* A stopped process is not the plugin's fault either. */
+static imp_status look_at_deadline(const worker *w, imp_status late)
 {
-    struct timespec t = clock_now();
-    t.tv_nsec += GLANCE_MS * 1000000L;
-    t.tv_sec += t.tv_nsec / 1000000000L;
-    t.tv_nsec %= 1000000000L;
-    return t;
+    siginfo_t end;
+    return find_end(w, WSTOPPED, &end) && end.si_pid != 0 ? SURFACE_KILLED : late;
+}
+
+static struct timespec next_look(double until)
+{
+    const double at = fmin(clock_seconds() + glance, until), whole = floor(at);
+    return (struct timespec){(time_t)whole, (long)(1e9 * (at - whole))};
 }
 
 static imp_status await_reply(worker *w, const void *user)
 {
     const channel *c = w->channel;
-    struct timespec until = in_a_glance();
-    const double deadline = clock_seconds() + WORKER_DEADLINE_S;
-    while (clock_seconds() < deadline) {
+    const deadline last = deadline_of_request();
+    struct timespec until = next_look(last.until);
+    do {
         if (sem_clockwait(&w->channel->replied, CLOCK_MONOTONIC, &until) == 0) {
             if (atomic_load(&c->answering) == c->number) return c->work.status;
         } else if (errno == ETIMEDOUT) {
             const imp_status end = look(w);
             if (end != IMP_STATUS_OK) return end_with(w, user, end);
         }
-        until = in_a_glance();
-    }
-    return end_with(w, user, look_at_deadline(w));
+        until = next_look(last.until);
+    } while (clock_seconds() < last.until);
+    return end_with(w, user, look_at_deadline(w, last.end));
 }
 
 bool worker_runs(worker *w)

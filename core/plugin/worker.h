@@ -20,7 +20,7 @@
  * A worker belongs to the process that started it. In a copy of that process (fork) every request
  * returns SURFACE_FORKED, and ending it frees memory only. */
 
-enum { WORKER_DEADLINE_S = 5 }; /* for one request */
+enum { WORKER_DEADLINE_S = 5 }; /* for one request, or less: active_callback_limit */
 
 #define WORKER_MEMORY ((size_t)4 << 30) /* bytes */
 

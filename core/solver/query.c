@@ -7,6 +7,7 @@
 #include <inttypes.h>
 #include <stdlib.h>
 
+#include "core/base/active_callback.h"
 #include "core/base/fp_mode.h"
 #include "core/base/sized.h"
 #include "core/base/status.h"
@@ -155,6 +156,7 @@ FP_APART static imp_code step(imp_query *query, uint64_t pairs, imp_error *error
     const uint64_t until = pairs == 0 || pairs > UINT64_MAX - done ? UINT64_MAX : done + pairs;
     imp_code code = IMP_SUCCESS;
     query->reason = IMP_REASON_RUNNING;
+    const double limit_before = query_limit_callbacks(query, start);
     if (!query->candidates.complete) code = begin(query, start, error);
     const uint64_t of_candidates = candidates_bytes(&query->candidates);
     const unsigned look_after = units_per_reading(query);
@@ -170,6 +172,7 @@ FP_APART static imp_code step(imp_query *query, uint64_t pairs, imp_error *error
         else
             code = work(query, error);
     }
+    active_callback_limit(limit_before);
     query->stats.seconds = before + (clock_seconds() - start);
     query_note_bytes(query, of_candidates);
     if (code == IMP_ERROR_MEMORY) {

@@ -4,6 +4,7 @@
 
 #include <stdlib.h>
 
+#include "core/base/active_callback.h"
 #include "core/base/fp_mode.h"
 #include "core/base/status.h"
 #include "core/common/clock.h"
@@ -59,7 +60,9 @@ FP_APART static imp_code divide(imp_query *query, imp_error *error)
                          "divide: got a clearance with `each`, must be one without: its parts are "
                          "of two bodies each");
     query->divided = clock_seconds();
+    const double limit_before = query_limit_callbacks(query, query->divided);
     imp_code code = query_collect(query, query->divided, error);
+    active_callback_limit(limit_before);
     if (code == IMP_SUCCESS && query->candidates.complete) {
         code = find_parts(query, error);
         if (code == IMP_SUCCESS) code = conclude(query, error);

@@ -91,6 +91,10 @@ void query_note_bytes(imp_query *query, uint64_t of_candidates);
  * `seconds_before` were spent before this step, which began at `start` of the clock. */
 void query_read_clock(imp_query *query, double seconds_before, double start);
 
+/* Holds callbacks of this thread to the time that max_seconds leaves at `start`; returns what
+ * active_callback_limit restores. */
+double query_limit_callbacks(const imp_query *query, double start);
+
 /* Returns the limit that is reached, or IMP_REASON_NONE. A cancellation ends one step: it is
  * cleared here, the only place that acts on it, so that none is lost. */
 imp_reason query_exhausted_limit(imp_query *query, double seconds);

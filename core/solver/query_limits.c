@@ -4,6 +4,7 @@
 
 #include <math.h>
 
+#include "core/base/active_callback.h"
 #include "core/common/clock.h"
 #include "core/solver/query_internal.h"
 
@@ -30,6 +31,12 @@ imp_reason query_exhausted_limit(imp_query *query, double seconds)
     if (options->max_seconds > 0 && seconds >= options->max_seconds) return IMP_REASON_SECONDS;
     if (options->max_bytes > 0 && query->peak_bytes > options->max_bytes) return IMP_REASON_MEMORY;
     return IMP_REASON_NONE;
+}
+
+double query_limit_callbacks(const imp_query *query, double start)
+{
+    const double most = query->options.max_seconds;
+    return active_callback_limit(most > 0 ? start + (most - query->stats.seconds) : 0);
 }
 
 #define PROGRESS_EVERY 0.1 /* seconds between calls of options.progress */

@@ -96,6 +96,7 @@ bool surface_undefined_instance(const surface *s, double lo, double hi, surface_
 #define SURFACE_BAD_SYMMETRY 1016
 #define SURFACE_BAD_SPAN 1017
 #define SURFACE_BAD_FORMULA 1018
+#define SURFACE_LATE 1019 /* an isolated instance had not answered when the time of all was over */
 
 /* Returns the text for a status other than IMP_STATUS_OK, to follow "type 'x' ...: ". */
 const char *surface_status_text(imp_status status);

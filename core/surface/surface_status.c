@@ -57,6 +57,9 @@ const char *surface_status_text(imp_status status)
         return "crashes or ends its process, in which it runs isolated";
     case SURFACE_HUNG:
         return "does not answer within 5 s; it ran isolated, and its process was ended";
+    case SURFACE_LATE:
+        return "had not answered when max_seconds was over; it ran isolated, and its process was "
+               "ended; allow more (0: no limit)";
     case SURFACE_KILLED:
         return "ran isolated, and its process was killed or stopped from outside, as by the "
                "out-of-memory killer";
@@ -75,7 +78,8 @@ const char *surface_status_text(imp_status status)
 /* Whether the text of the status does not say which callback returned it. */
 static bool is_of_any_callback(imp_status status)
 {
-    return status == SURFACE_CRASHED || status == SURFACE_HUNG || status == SURFACE_CHANGED_MODE;
+    return status == SURFACE_CRASHED || status == SURFACE_HUNG || status == SURFACE_LATE ||
+           status == SURFACE_CHANGED_MODE;
 }
 
 static surface_message message_of_last(imp_status status, bool named)
@@ -99,6 +103,7 @@ imp_code surface_set_code(imp_status status, imp_error *error)
 {
     const imp_code code = status == SURFACE_FORKED       ? IMP_ERROR_USAGE
                           : status == SURFACE_NO_PROCESS ? IMP_ERROR_MEMORY
+                          : status == SURFACE_LATE       ? IMP_ERROR_LIMIT
                                                          : IMP_ERROR_PLUGIN;
     if (error != NULL) error->code = code;
     return code;

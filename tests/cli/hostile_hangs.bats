@@ -50,6 +50,20 @@ all_hang() {
     done
 }
 
+@test "isolated, a callback that hangs is ended when --max-seconds is over" {
+    local phase start took
+    for phase in create domain eval include; do
+        start=$(date +%s%N)
+        run -3 --separate-stderr hostile "$phase" hang --isolate all --max-seconds 0.3
+        took=$((($(date +%s%N) - start) / 1000000))
+        echo "$phase: $took ms: $output / $stderr"
+        [ "$took" -lt 3000 ] # 0.3 s on an idle machine; 5 s without the limit
+        [[ $stderr != *'5 s'* && $stderr == *'max_seconds '*'allow more (0: no limit)'* ]]
+        json 'has("error")'
+        [[ $phase != eval && $phase != include ]] || [[ $stderr == *"($phase of 'hostile')"* ]]
+    done
+}
+
 @test "a callback that takes longer than --max-seconds while the scene is read ends the command, and is not blamed" {
     local verb told='--max-seconds 0.1 was over while the scene was read; allow more (0: no limit)'
     run -3 --separate-stderr hostile create spin --max-seconds 0.1
@@ -75,6 +89,9 @@ all_hang() {
         output=$(<answers.jsonl)
         json -s 'length == 1 and (.[0] | has("verdict"))'
     done
+    run -3 --separate-stderr "$IMPINGE" batch lines.jsonl --plugin-path "$here/plugins" --isolate all --max-seconds 0.3
+    json -s 'length == 3 and .[0].verdict == "clear" and .[2].verdict == "clear" and
+        (.[1].error | contains("max_seconds is not enough to read this"))'
     run -5 --separate-stderr "$IMPINGE" batch lines.jsonl --plugin-path "$here/plugins" --isolate all
     json -s 'length == 3 and .[0].verdict == "clear" and .[2].verdict == "clear" and
         (.[1].error | contains("create of '"'hostile'"'") and contains("does not answer within 5 s"))'
