@@ -21,8 +21,9 @@
 #include <sys/wait.h>
 #include <unistd.h>
 
-static const double glance = 0.1;      /* seconds between looks at whether the worker lives */
-static const double late_slack = 0.05; /* seconds beyond the time of all: a type may stop by itself */
+/* Seconds between looks at whether the worker lives; and beyond the time of all, for a type that
+ * stops by itself. */
+static const double glance = 0.1, late_slack = 0.05;
 
 /* --- In the new process ----------------------------------------------------------------------- */
 

@@ -52,8 +52,8 @@ imp_code scene_values_refuse(const scene_values_wrong *wrong, const imp_scene *s
     spelling_search near = {.wanted = name};
     const char *names = offer_names(wrong, scene, &near, list, sizeof list);
     snprintf(error->text, sizeof error->text,
-             "--%s: the scene has no parameter '%.200s'%s%s%s its parameters are: %s", wrong->option,
-             message_shown(name).text, near.best != NULL ? "; did you mean '" : "",
+             "--%s: the scene has no parameter '%.200s'%s%s%s its parameters are: %s",
+             wrong->option, message_shown(name).text, near.best != NULL ? "; did you mean '" : "",
              near.best != NULL ? near.best : "", near.best != NULL ? "'?" : ";", names);
     return error->code = IMP_ERROR_USAGE;
 }

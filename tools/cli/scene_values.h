@@ -26,7 +26,7 @@ typedef struct scene_values_wrong {
     const void *context;
 } scene_values_wrong;
 
-/* Words the error (IMP_ERROR_USAGE), with the nearest name and all names as far as there is room. */
+/* Words the error (IMP_ERROR_USAGE), with the nearest name, and all names if there is room. */
 imp_code scene_values_refuse(const scene_values_wrong *wrong, const imp_scene *scene,
                              imp_error *error);
 

@@ -90,8 +90,8 @@ imp_code survey_check_parameters(const imp_scene *scene, size_t declared, const 
     const known_names known = {declared, args};
     for (size_t k = declared; imp_scene_parameter(scene, k, &info); ++k) {
         if (info.is_followed || !is_given(info.name, args)) continue;
-        const scene_values_wrong wrong = {
-            "parameter", info.name, strlen(info.name), is_known, &known};
+        const scene_values_wrong wrong = {"parameter", info.name, strlen(info.name), is_known,
+                                          &known};
         return scene_values_refuse(&wrong, scene, error);
     }
     return IMP_SUCCESS;

@@ -128,8 +128,7 @@ static exit_status check_sweep(const imp_scene *scene, const arguments *args)
 {
     const option_value *over = arguments_option(args, "sweep");
     if (over == NULL || swept(scene, args) < imp_scene_parameter_count(scene)) return EXIT_ANSWERED;
-    return scene_values_complain(scene, "sweep", over->text, strlen(over->text),
-                                 args->verb->name);
+    return scene_values_complain(scene, "sweep", over->text, strlen(over->text), args->verb->name);
 }
 
 /* Returns the scene at the values, or the one that sweeps a parameter. NULL: it complained. */
