@@ -4,10 +4,17 @@
 
 #include "core/solid/edges.h"
 
+#include <math.h>
 #include <stdlib.h>
 
 #include "core/base/status.h"
 #include "core/solid/cell_hash.h"
+
+/* An edge in the list of its bucket. */
+typedef struct edge_link {
+    uint32_t next; /* END: it is the last */
+    uint32_t tag;  /* bits of its cell's hash: most others of the bucket have other ones */
+} edge_link;
 
 /* --- Reading ---------------------------------------------------------------------------------- */
 
@@ -36,8 +43,8 @@ static imp_code read_patch(edges *e, size_t index, imp_error *error)
 
 size_t edges_bytes(size_t count)
 {
-    const size_t links = 3; /* to the first edge of a bucket, of which there are up to 2 an edge */
-    return 4 * count * ((size_t)(steps_for(count) + 1) * sizeof(vec3) + links * sizeof(size_t));
+    const size_t links = sizeof(edge_link) + 2 * sizeof(uint32_t); /* up to 2 buckets an edge */
+    return 4 * count * ((size_t)(steps_for(count) + 1) * sizeof(vec3) + links);
 }
 
 imp_code edges_read(edges *e, const patches *p, double slack, imp_error *error)
@@ -165,45 +172,61 @@ int edge_passes(const edges *e, size_t i, int k, size_t j)
 
 /* --- Matching all ----------------------------------------------------------------------------- */
 
-/* Edges by the cell of their middle point, in cells of the size 4 slack: points within slack of
- * each other are in the same cell or in neighbours. */
+/* Edges by the cell of their middle point. Cells are larger than slack: points within slack of each
+ * other are in the same cell or in neighbours. */
 typedef struct cells {
     const edges *edges;
     union_find *sets;         /* of patches, which seams join; NULL: nobody asked for them */
     const imp_facing *facing; /* of patches; NULL: not known */
-    size_t *first, *next;     /* first of each bucket, next of each edge; SIZE_MAX: none */
+    double size;              /* of a cell */
+    uint32_t *first;          /* of each bucket; END: it is empty */
+    edge_link *link;          /* of each edge */
     size_t buckets;           /* a power of 2 */
 } cells;
 
-/* Returns a point's cell. Cells are counted from the first point of all edges, so that their
- * numbers stay small wherever the body is. */
-static double cell_number(const edges *e, vec3 x, int i, double shift)
+enum { CELL_MIN = 4, CELL_MAX = 64 }; /* size in slacks */
+#define END UINT32_MAX
+
+/* Returns the size of a cell. A box of 2 slack around a middle point lies in (1 + 2 slack / size)^3
+ * cells on average, 3.4 of the least size and 1.1 of the greatest, and each costs a miss of the
+ * cache. But a cell must not have many edges: N edges of a surface of size s are s / sqrt(N)
+ * apart. */
+static double cell_size(const edges *e)
 {
-    return floor((x.x[i] - e->at[0].x[i] + shift) / (4 * e->slack)) + 0.0; /* 0, not -0 */
+    const double apart = e->patches->size / sqrt((double)(e->count + 1));
+    return fmin(fmax(apart / 4, CELL_MIN * e->slack), CELL_MAX * e->slack);
 }
 
-static size_t bucket_of(const cells *c, const double at[3])
+/* Returns a point's cell. Cells are counted from the first point of all edges, so that their
+ * numbers stay small wherever the body is. */
+static double cell_number(const cells *c, vec3 x, int i, double shift)
 {
-    return cell_hash(at) & (c->buckets - 1);
+    return floor((x.x[i] - c->edges->at[0].x[i] + shift) / c->size) + 0.0; /* 0, not -0 */
 }
+
+static size_t bucket_of(const cells *c, size_t hash) { return hash & (c->buckets - 1); }
+
+static uint32_t tag_of(size_t hash) { return (uint32_t)(hash >> (8 * sizeof hash - 32)); }
 
 static vec3 middle_of(const edges *e, size_t i) { return edge_points(e, i)[e->steps / 2]; }
 
 static bool cells_fill(cells *c, const edges *e, union_find *sets)
 {
-    *c = (cells){.edges = e, .sets = sets, .buckets = 16};
+    *c = (cells){.edges = e, .sets = sets, .size = cell_size(e), .buckets = 16};
+    if (e->count >= END) return false; /* their points would take 300 GB */
     while (c->buckets < e->count) c->buckets *= 2;
     c->first = malloc(c->buckets * sizeof *c->first);
-    c->next = malloc((e->count + 1) * sizeof *c->next);
-    if (c->first == NULL || c->next == NULL) return false;
-    for (size_t k = 0; k < c->buckets; ++k) c->first[k] = SIZE_MAX;
+    c->link = malloc((e->count + 1) * sizeof *c->link);
+    if (c->first == NULL || c->link == NULL) return false;
+    for (size_t k = 0; k < c->buckets; ++k) c->first[k] = END;
     for (size_t i = 0; i < e->count; ++i) {
         if (edge_is_point(e, i)) continue;
         double at[3];
-        for (int k = 0; k < 3; ++k) at[k] = cell_number(e, middle_of(e, i), k, 0);
-        const size_t bucket = bucket_of(c, at);
-        c->next[i] = c->first[bucket];
-        c->first[bucket] = i;
+        for (int k = 0; k < 3; ++k) at[k] = cell_number(c, middle_of(e, i), k, 0);
+        const size_t hash = cell_hash(at);
+        uint32_t *first = &c->first[bucket_of(c, hash)];
+        c->link[i] = (edge_link){*first, tag_of(hash)};
+        *first = (uint32_t)i;
     }
     return true;
 }
@@ -214,10 +237,11 @@ typedef struct partners {
     int sum; /* of the directions of those of the same shell, with the signs of their patches */
 } partners;
 
-/* Looks for partners of edge i in one bucket. */
-static void match_bucket(const cells *c, size_t i, size_t bucket, partners *found)
+/* Looks for partners of edge i in the cells of one hash. */
+static void match_cell(const cells *c, size_t i, size_t hash, partners *found)
 {
-    for (size_t j = c->first[bucket]; j != SIZE_MAX; j = c->next[j]) {
+    for (uint32_t j = c->first[bucket_of(c, hash)]; j != END; j = c->link[j].next) {
+        if (c->link[j].tag != tag_of(hash)) continue;
         const int direction = j == i ? 0 : edge_compare(c->edges, i, j);
         if (direction == 0) continue;
         if (found->count++ == 0) found->first = j;
@@ -237,14 +261,14 @@ static partners find_partners(const cells *c, size_t i)
         double at[3];
         for (int k = 0; k < 3; ++k) {
             const double shift = corner >> k & 1 ? c->edges->slack : -c->edges->slack;
-            at[k] = cell_number(c->edges, middle, k, shift);
+            at[k] = cell_number(c, middle, k, shift);
         }
-        const size_t bucket = bucket_of(c, at);
+        const size_t hash = cell_hash(at);
         bool again = false;
-        for (int k = 0; k < count; ++k) again |= seen[k] == bucket;
+        for (int k = 0; k < count; ++k) again |= seen[k] == hash;
         if (again) continue;
-        seen[count++] = bucket;
-        match_bucket(c, i, bucket, &found);
+        seen[count++] = hash;
+        match_cell(c, i, hash, &found);
     }
     return found;
 }
@@ -263,7 +287,7 @@ bool edges_match(const edges *e, size_t *partner, union_find *sets)
     for (size_t i = 0; filled && i < e->count; ++i)
         partner[i] = edge_is_point(e, i) ? SEAM_NONE : match_edge(&c, i);
     free(c.first);
-    free(c.next);
+    free(c.link);
     return filled;
 }
 
@@ -277,6 +301,6 @@ bool edges_cancel(const edges *e, const size_t *partner, const imp_facing *facin
         if (partner[i] == SEAM_EVEN && !edge_is_point(e, i))
             *cancel = find_partners(&c, i).sum + facing[i / 4].sign == 0;
     free(c.first);
-    free(c.next);
+    free(c.link);
     return filled;
 }
