@@ -4,6 +4,8 @@
 
 #include "core/broad_phase/examined_times.h"
 
+#include "core/common/clock.h"
+
 typedef struct span {
     double lo, hi;
 } span;
@@ -15,6 +17,9 @@ typedef struct examination {
     imp_error *error;
     bool all_exist;   /* all surfaces exist and are defined at all of the query's times */
     bool all_defined; /* no surface is undefined at any of the query's times */
+    const limit_watch *watch;
+    size_t looked; /* pairs of surfaces, and of bodies */
+    bool ended;    /* by the watch */
 } examination;
 
 static span existence(const surface *s, span within)
@@ -61,6 +66,14 @@ static bool is_complete(const examination *x)
     return x->all_defined && x->found->lo == x->asked.lo && x->found->hi == x->asked.hi;
 }
 
+/* Counts one more pair, and asks the watch now and then. */
+static bool ends(examination *x)
+{
+    enum { PAIRS_A_LOOK = 1024 };
+    if (++x->looked % PAIRS_A_LOOK == 0) x->ended = !limit_watch_goes_on(x->watch);
+    return x->ended;
+}
+
 static imp_code examine_bodies(examination *x, size_t a, size_t b)
 {
     const size_t of_a = scene_surface_count(x->scene, a);
@@ -70,7 +83,7 @@ static imp_code examine_bodies(examination *x, size_t a, size_t b)
         *x->found = (examined_times){true, x->asked.lo, x->asked.hi};
     for (size_t k = 0; k < of_a; ++k)
         for (size_t l = 0; l < of_b; ++l) {
-            if (code != IMP_SUCCESS || is_complete(x)) return code;
+            if (code != IMP_SUCCESS || is_complete(x) || ends(x)) return code;
             code =
                 examine_surfaces(x, scene_surface(x->scene, a, k), scene_surface(x->scene, b, l));
         }
@@ -100,13 +113,23 @@ static bool is_known_by_count(const imp_scene *scene, examination *x)
     return x->all_exist;
 }
 
+static bool is_before(void *context) { return clock_seconds() < *(const double *)context; }
+
+limit_watch examined_times_until(double *seconds) { return (limit_watch){is_before, seconds}; }
+
 imp_code examined_times_find(const imp_scene *scene, double t_start, double t_end,
-                             examined_times *found, imp_error *error)
+                             const limit_watch *watch, examined_times *found, imp_error *error)
 {
     const span asked = {t_start, t_end};
     const bool all_exist = scene_is_defined(scene, t_start, t_end);
     const bool all_defined = all_exist || are_all_defined(scene, asked);
-    examination x = {scene, asked, found, error, all_exist, all_defined};
+    examination x = {.scene = scene,
+                     .asked = asked,
+                     .found = found,
+                     .error = error,
+                     .all_exist = all_exist,
+                     .all_defined = all_defined,
+                     .watch = watch};
     const size_t bodies = scene_body_count(scene);
     imp_code code = IMP_SUCCESS;
     *found = (examined_times){false, INFINITY, -INFINITY};
@@ -114,7 +137,10 @@ imp_code examined_times_find(const imp_scene *scene, double t_start, double t_en
     for (size_t a = 0; a < bodies; ++a)
         for (size_t b = a + 1; b < bodies; ++b) {
             if (code != IMP_SUCCESS || is_complete(&x)) return code;
-            if (!scene_ignores(scene, a, b)) code = examine_bodies(&x, a, b);
+            if (!ends(&x) && !scene_ignores(scene, a, b)) code = examine_bodies(&x, a, b);
+            if (!x.ended) continue;
+            *found = (examined_times){true, t_start, t_end};
+            return code;
         }
     return code;
 }

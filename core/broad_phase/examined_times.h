@@ -3,6 +3,7 @@
 #ifndef CORE_BROAD_PHASE_EXAMINED_TIMES_H
 #define CORE_BROAD_PHASE_EXAMINED_TIMES_H
 
+#include "core/base/limit_watch.h"
 #include "core/scene/scene.h"
 
 /* The times that a query examines
@@ -19,8 +20,12 @@ typedef struct examined_times {
 
 /* Finds the times that a query from t_start to t_end examines. IMP_ERROR_SCENE: the query needs
  * times at which a type or map is undefined; the message names the body, the type or map, and its
- * times. */
+ * times. Where the watch ends it, *found is all of the query's times, and nothing is known of
+ * undefined ones: `watch` must then end the query, too. */
 imp_code examined_times_find(const imp_scene *scene, double t_start, double t_end,
-                             examined_times *found, imp_error *error);
+                             const limit_watch *watch, examined_times *found, imp_error *error);
+
+/* A watch that ends at a time of the clock; INFINITY: never. */
+limit_watch examined_times_until(double *seconds);
 
 #endif

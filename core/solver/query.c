@@ -45,7 +45,10 @@ FP_APART static imp_query *new_query(imp_scene *scene, const imp_options *given,
     if (scene_check_options(scene, options, error) != IMP_SUCCESS) return NULL;
     if (check_baseline(options->baseline, error) != IMP_SUCCESS) return NULL;
     examined_times examined;
-    if (examined_times_find(scene, options->t_start, options->t_end, &examined, error) !=
+    const double start = clock_seconds();
+    double until = options->max_seconds > 0 ? start + options->max_seconds : INFINITY;
+    const limit_watch watch = examined_times_until(&until);
+    if (examined_times_find(scene, options->t_start, options->t_end, &watch, &examined, error) !=
         IMP_SUCCESS)
         return NULL;
     imp_query *query = malloc(sizeof *query);
@@ -58,6 +61,7 @@ FP_APART static imp_query *new_query(imp_scene *scene, const imp_options *given,
                          .options = *options,
                          .gamma_clear = gamma_clear,
                          .examined = examined,
+                         .stats = {.seconds = clock_seconds() - start},
                          .impact = {.gamma = options->gamma,
                                     .gamma_clear = gamma_clear,
                                     .baseline = options->baseline,

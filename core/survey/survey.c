@@ -134,9 +134,12 @@ FP_APART static imp_code read_question(const imp_scene *scene, const imp_options
     if (code == IMP_SUCCESS && how != NULL)
         code = sized_read("imp_survey_options", &to->how, how, HOW_FIRST, error);
     if (code == IMP_SUCCESS) code = check_options(scene, &to->options, error);
+    const double most = to->options.max_seconds;
+    double until = most > 0 ? clock_seconds() + most : INFINITY;
+    const limit_watch watch = examined_times_until(&until);
     if (code == IMP_SUCCESS)
-        code = examined_times_find(scene, to->options.t_start, to->options.t_end, &to->examined,
-                                   error);
+        code = examined_times_find(scene, to->options.t_start, to->options.t_end, &watch,
+                                   &to->examined, error);
     if (code == IMP_SUCCESS) code = check_asked(&to->clearance, error);
     if (code == IMP_SUCCESS) code = check_bodies(scene, to->how.body, error);
     return code;
@@ -151,7 +154,9 @@ FP_APART static imp_code fill(imp_survey *s, imp_scene *scene, const imp_options
                       .counts = {.settled = INFINITY},
                       .verdict = IMP_VERDICT_UNDECIDED,
                       .reason = IMP_REASON_RUNNING};
+    const double start = clock_seconds();
     imp_code code = read_question(scene, options, asked, how, &s->question, error);
+    s->counts.stats.seconds = clock_seconds() - start;
     if (code == IMP_SUCCESS) code = check_ranges(s, error);
     if (code == IMP_SUCCESS && !make_room(s)) code = error_set_memory(error);
     if (code != IMP_SUCCESS) return code;

@@ -139,3 +139,16 @@ END
     run -0 "$IMPINGE" view answer.json -o view.pvd --frames 2 --time 4,5
     [ "$(grep -o 'timestep="[^"]*"' view.pvd | tr '\n' ' ')" = 'timestep="4" timestep="5" ' ]
 }
+
+@test "--max-seconds holds while the times at which bodies exist together are compared" {
+    jq -nc '{time: [-1, 2], bodies: [range(100) | {surfaces: [{type: "formula", x: "u", y: "v", z: "0",
+        domain: [[0, 1], [0, 1]], time: [. / 100, (. + 1.5) / 100]}]}]}' >brief.json
+    run -0 "$IMPINGE" solve brief.json --json
+    json '.verdict == "contact" and .t_examined[0] > 0 and .t_examined[1] < 1'
+    # Not all of 4950 pairs were looked at, so that nothing is known of the times.
+    for verb in solve clearance; do
+        run -3 "$IMPINGE" $verb brief.json --max-seconds 1e-9 --json
+        json '.reason == "max-seconds"'
+        [ $verb = clearance ] || json '.t_examined == [-1, 2] and .t_lower == -1'
+    done
+}
