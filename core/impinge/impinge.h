@@ -334,6 +334,15 @@ IMP_EXPORT imp_code imp_builder_surface_of(imp_builder *builder, size_t body,
                                            const imp_scene *scene, size_t its_body,
                                            size_t its_surface, imp_error *error);
 
+/* Begins with all bodies of another scene: their names, groups, surfaces, maps and parents, whether
+ * they are solid, and who ignores whom; neither its times nor its tolerances. Both scenes share
+ * what imp_builder_surface_of shares, and maps. What is added comes after that; an added map is
+ * another one than an equal map of the other scene. For many scenes that differ in a few maps.
+ * IMP_ERROR_USAGE: the builder has bodies or parameters already, the scene has parameters, or it is
+ * of another registry. */
+IMP_EXPORT imp_code imp_builder_bodies_of(imp_builder *builder, const imp_scene *scene,
+                                          imp_error *error);
+
 /* The parent's maps come after the body's. Circles are refused by imp_builder_finish. */
 IMP_EXPORT imp_code imp_builder_parent(imp_builder *builder, size_t body, size_t parent,
                                        imp_error *error);

@@ -114,6 +114,24 @@ imp_code imp_builder_body(imp_builder *b, const char *name, size_t *body, imp_er
     return code;
 }
 
+imp_code imp_builder_bodies_of(imp_builder *b, const imp_scene *scene, imp_error *error)
+{
+    const imp_code code = builder_enter(b, error);
+    if (code != IMP_SUCCESS) return code;
+    if (scene == NULL) return error_set(error, IMP_ERROR_USAGE, "the scene is NULL");
+    if (b->bodies.assembly.count > 0 || scene_parameters_of(b->bodies.assembly.scene)->count > 0)
+        return error_set(error, IMP_ERROR_USAGE,
+                         "the builder has bodies or parameters already; must be taken first");
+    if (scene_registry(scene) != b->registry)
+        return error_set(error, IMP_ERROR_USAGE,
+                         "the scene is of another registry than the builder");
+    if (imp_scene_parameter_count(scene) > 0)
+        return error_set(error, IMP_ERROR_USAGE,
+                         "the scene has parameters; must be a scene without");
+    const place at = place_argument(NULL, "scene");
+    return scene_bodies_copy(&b->bodies, scene, &at);
+}
+
 imp_code imp_builder_solid(imp_builder *b, size_t body, bool solid, imp_error *error)
 {
     imp_code code = builder_enter(b, error);

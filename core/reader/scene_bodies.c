@@ -155,6 +155,21 @@ imp_code scene_bodies_join(scene_bodies *b, size_t body, const char *name, const
     return code == IMP_SUCCESS ? keep(b, scene_join(scene, body, group) == IMP_SUCCESS) : code;
 }
 
+/* --- Bodies of another scene ------------------------------------------------------------------ */
+
+imp_code scene_bodies_copy(scene_bodies *b, const imp_scene *scene, const place *at)
+{
+    imp_code code = IMP_SUCCESS;
+    for (size_t k = 0; k < scene_body_count(scene) && code == IMP_SUCCESS; ++k) {
+        code = scene_bodies_begin(b, imp_scene_body_name(scene, k), at);
+        if (code == IMP_SUCCESS) code = keep(b, assembly_copy_body(&b->assembly, k, scene));
+    }
+    for (size_t g = 0; g < scene_group_count(scene) && code == IMP_SUCCESS; ++g)
+        code = add_name(b, scene_group_name(scene, g), -1 - (json_int_t)g);
+    if (code != IMP_SUCCESS) return code;
+    return keep(b, scene_copy_relations(scene, b->assembly.scene) == IMP_SUCCESS);
+}
+
 /* --- Parents ---------------------------------------------------------------------------------- */
 
 imp_code scene_bodies_set_parent(scene_bodies *b, size_t body, const char *parent, const place *at)

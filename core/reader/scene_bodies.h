@@ -28,6 +28,10 @@ imp_code scene_bodies_parameter(scene_bodies *b, const char *name, double lo, do
 /* Begins a body; its name, or "body0", "body1", ... by position if NULL, must be new. */
 imp_code scene_bodies_begin(scene_bodies *b, const char *name, const place *at);
 
+/* Begins with the bodies of a scene, their groups, and who ignores whom. Precondition: there is
+ * none yet. */
+imp_code scene_bodies_copy(scene_bodies *b, const imp_scene *scene, const place *at);
+
 imp_code scene_bodies_join(scene_bodies *b, size_t body, const char *group, const place *at);
 imp_code scene_bodies_set_parent(scene_bodies *b, size_t body, const char *parent, const place *at);
 

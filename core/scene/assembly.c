@@ -8,6 +8,7 @@
 #include <stdlib.h>
 
 #include "core/common/array.h"
+#include "core/scene/scene_internal.h"
 
 /* --- Shapes ----------------------------------------------------------------------------------- */
 
@@ -122,6 +123,33 @@ bool assembly_is_too_large(const assembly *a)
         }
     }
     return false;
+}
+
+/* --- Bodies of another scene ------------------------------------------------------------------ */
+
+/* The type of a surface, and those of its maps that are its own. */
+static bool copy_shape(shape_list *to, const surface *s, size_t own_maps)
+{
+    instance_list maps = {.count = 0};
+    bool copied = true;
+    for (size_t k = 1; k <= own_maps && copied; ++k)
+        copied = instance_list_add(&maps, surface_stage(s, k));
+    copied = copied && shape_list_add(to, surface_stage(s, 0), &maps);
+    instance_list_clear(&maps);
+    return copied;
+}
+
+bool assembly_copy_body(assembly *a, size_t body, const imp_scene *scene)
+{
+    assembly_body *to = &a->bodies[body];
+    const scene_layout *layout = scene->layout != NULL ? &scene->layout[body] : NULL;
+    scene_set_solid(a->scene, body, scene_is_solid(scene, body));
+    for (size_t k = 0; k < scene_surface_count(scene, body); ++k)
+        if (!copy_shape(&to->shapes, scene_surface(scene, body, k), scene_own_maps(scene, body, k)))
+            return false;
+    if (layout == NULL) return true;
+    to->parent = layout->parent;
+    return instance_list_add_all(&to->maps, &layout->maps);
 }
 
 /* --- Composing -------------------------------------------------------------------------------- */

@@ -49,6 +49,10 @@ void assembly_clear(assembly *a);
 /* Adds a body of that name, which is copied, at the end of a->bodies. False: no memory. */
 bool assembly_add_body(assembly *a, const char *name);
 
+/* Gives a body without surfaces, maps and parent those that the body of that number has in a scene,
+ * whether it is solid, and shares the instances. False: no memory. */
+bool assembly_copy_body(assembly *a, size_t body, const imp_scene *scene);
+
 /* Finds a body that is its own ancestor, in *body. False: there is none. */
 typedef enum assembly_search {
     ASSEMBLY_NO_CYCLE,

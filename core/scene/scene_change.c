@@ -21,10 +21,10 @@ static size_t maps_of_bodies(const imp_scene *scene, size_t body)
     return count;
 }
 
-/* Counts the maps of one surface of a body alone. */
-static size_t own_maps(const imp_scene *scene, size_t body, const member *m)
+size_t scene_own_maps(const imp_scene *scene, size_t body, size_t k)
 {
-    return surface_map_count(m->surface) - maps_of_bodies(scene, body);
+    const size_t all = surface_map_count(scene->bodies[body].members[k].surface);
+    return scene->layout != NULL ? all - maps_of_bodies(scene, body) : all;
 }
 
 shared_instance *scene_stage_at(const imp_scene *scene, scene_stage at)
@@ -36,7 +36,9 @@ shared_instance *scene_stage_at(const imp_scene *scene, scene_stage at)
     if (at.surface >= b->count) return NULL;
     const member *m = &b->members[at.surface];
     if (at.map == SIZE_MAX) return surface_stage(m->surface, 0);
-    return at.map < own_maps(scene, at.body, m) ? surface_stage(m->surface, 1 + at.map) : NULL;
+    return at.map < scene_own_maps(scene, at.body, at.surface)
+               ? surface_stage(m->surface, 1 + at.map)
+               : NULL;
 }
 
 shared_instance *scene_equal_map(const imp_scene *scene, const shared_instance *map)
@@ -47,7 +49,7 @@ shared_instance *scene_equal_map(const imp_scene *scene, const shared_instance *
         for (size_t k = 0; k < maps->count; ++k)
             if (instance_is_equal_map(maps->at[k], map)) return maps->at[k];
         for (size_t k = 0; k < body->count; ++k) {
-            const size_t own = own_maps(scene, b, &body->members[k]);
+            const size_t own = scene_own_maps(scene, b, k);
             for (size_t j = 1; j <= own; ++j) {
                 shared_instance *one = surface_stage(body->members[k].surface, j);
                 if (instance_is_equal_map(one, map)) return one;
@@ -61,12 +63,11 @@ shared_instance *scene_equal_map(const imp_scene *scene, const shared_instance *
  * SIZE_MAX: nowhere. */
 static size_t stage_within(const imp_scene *scene, size_t body, size_t index, scene_stage at)
 {
-    const member *m = &scene->bodies[body].members[index];
     if (at.surface != SIZE_MAX) {
         if (body != at.body || index != at.surface) return SIZE_MAX;
         return at.map == SIZE_MAX ? 0 : 1 + at.map;
     }
-    size_t stage = 1 + own_maps(scene, body, m) + at.map, up = body;
+    size_t stage = 1 + scene_own_maps(scene, body, index) + at.map, up = body;
     for (; up != at.body && up != SIZE_MAX; up = scene->layout[up].parent)
         stage += scene->layout[up].maps.count;
     return up == at.body ? stage : SIZE_MAX;

@@ -63,6 +63,9 @@ struct imp_scene {
     /* once it is built all but the members' lists of trees is only read, but by scene_change.c */
 };
 
+/* Counts the maps of surface k of a body alone, which come before those of bodies. */
+size_t scene_own_maps(const imp_scene *scene, size_t body, size_t k);
+
 /* Sets t_from and t_to. */
 void scene_note_times(imp_scene *scene);
 

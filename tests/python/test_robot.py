@@ -202,6 +202,31 @@ def test_a_robot_reads_its_meshes_once(tmp_path):
     assert scenes[0].solve().t == expected.t
 
 
+def test_scenes_of_one_world_are_those_of_a_robot_loaded_anew(tmp_path):
+    (tmp_path / "w.yaml").write_text("""
+world: {collision_objects: [{id: ball, pose: {position: [0.7, 0, 0.6], orientation: [0, 0, 0, 1]},
+  primitives: [{type: sphere, dimensions: [0.3]}], primitive_poses: [{position: [0, 0, 0], orientation: [0, 0, 0, 1]}]}]}
+""")
+    arm = robot.load(ARM)
+    world = arm.world(tmp_path / "w.yaml")
+    for q in ([0, -1.2, 0, 0, 0], [0.1, -1, 0.2, 0, 0.01]):
+        motion = [q, [0.2, 1.2, 0, 0, 0]]
+        ours = arm.scene([0, 1], motion, world=world)
+        fresh = robot.load(ARM)
+        theirs = fresh.scene([0, 1], motion, world=tmp_path / "w.yaml")
+        assert ours.to_json() == theirs.to_json() and ours.bodies == theirs.bodies
+        found = [scene.solve() for scene in (ours, theirs, impinge.Scene.from_json(ours.to_json()))]
+        assert found[0].verdict == "contact"
+        assert len({(x.t, x.pairs, x.bodies, x.gap) for x in found}) == 1
+        again = pickle.loads(pickle.dumps(arm)).scene([0, 1], motion, world=world).solve()
+        assert (again.t, again.pairs) == (found[0].t, found[0].pairs)
+        free = arm.scene([0, 1], motion, world=world, allowed=[(link, "ball") for link in arm.links])
+        assert free.solve().verdict == "clear"
+        errors = arm.scene([0, 1], motion, world=world, errors=(0.01, 0.001))
+        assert set(errors.parameters) == {f"{joint.name}.error" for joint in arm.joints}
+    assert arm.scene([0, 1], motion).solve().verdict == "clear"
+
+
 def test_a_copy_of_the_process_makes_scenes_of_its_own():
     arm = robot.load(ARM)
     ours = arm.scene([0, 1], POSITIONS[:2]).solve()

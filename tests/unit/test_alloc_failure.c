@@ -187,6 +187,26 @@ START_TEST(a_scene_built_without_text_is_whole_or_not_there)
 }
 END_TEST
 
+/* Two bodies, begun with those of the scene before. */
+static imp_scene *built_of_another(imp_registry *registry)
+{
+    imp_scene *before = built(registry);
+    if (before == NULL) return NULL;
+    imp_builder *b = imp_builder_new(registry);
+    error.code = IMP_ERROR_MEMORY;
+    const bool good = b != NULL && imp_builder_bodies_of(b, before, &error) == IMP_SUCCESS;
+    imp_scene *scene = good ? imp_builder_finish(b, &error) : NULL;
+    imp_builder_free(b);
+    imp_scene_free(before);
+    return scene;
+}
+
+START_TEST(a_scene_begun_with_another_s_bodies_is_whole_or_not_there)
+{
+    scenes_are_whole_or_not_there(built_of_another);
+}
+END_TEST
+
 START_TEST(a_file_that_does_not_fit_into_memory_is_told)
 {
     imp_registry *registry = kit_registry();
@@ -206,4 +226,5 @@ END_TEST
 SUITE_MAIN("alloc_failure", a_registry_is_whole_or_not_there, the_search_path_is_whole_or_refused,
            a_scene_is_whole_or_not_there, a_pair_is_whole_or_not_there,
            a_pair_s_text_is_whole_or_not_there, a_scene_built_without_text_is_whole_or_not_there,
+           a_scene_begun_with_another_s_bodies_is_whole_or_not_there,
            a_file_that_does_not_fit_into_memory_is_told)

@@ -266,6 +266,71 @@ START_TEST(a_surface_of_another_scene_is_shared)
 }
 END_TEST
 
+/* Two bodies of a group, of which the second moves with the first. */
+static imp_scene *template_scene(void)
+{
+    imp_builder *b = begin();
+    const imp_argument kit[] = {imp_argument_number("radius", 1),
+                                imp_argument_list("center", center, 3)};
+    const imp_argument sideways = imp_argument_list("by", by, 3);
+    for (size_t body = 0; body < 2; ++body) {
+        good(imp_builder_body(b, body == 0 ? "first" : "second", NULL, &error));
+        good(imp_builder_surface(b, body, "kit", kit, 2, &error));
+        good(imp_builder_surface_map(b, body, 0, "nudge", &sideways, 1, &error));
+        good(imp_builder_map(b, body, "nudge", &sideways, 1, &error));
+        good(imp_builder_group(b, body, "both", &error));
+    }
+    good(imp_builder_parent(b, 1, 0, &error));
+    good(imp_builder_solid(b, 1, true, &error));
+    good(imp_builder_ignore(b, "both", "both", &error));
+    return finish(b);
+}
+
+START_TEST(bodies_of_another_scene_are_as_they_are_there)
+{
+    const imp_argument sideways = imp_argument_list("by", by, 3);
+    imp_scene *whole = template_scene();
+    imp_builder *b = begin();
+    refused(imp_builder_bodies_of(b, NULL, &error), IMP_ERROR_USAGE, "is NULL");
+    good(imp_builder_bodies_of(b, whole, &error));
+    refused(imp_builder_bodies_of(b, whole, &error), IMP_ERROR_USAGE, "has bodies");
+    refused(imp_builder_body(b, "second", NULL, &error), IMP_ERROR_SCENE, "which body 1 has");
+    refused(imp_builder_body(b, "both", NULL, &error), IMP_ERROR_SCENE, "which a group has");
+    add_body(b, "third");
+    good(imp_builder_group(b, 2, "both", &error));
+    good(imp_builder_map(b, 0, "nudge", &sideways, 1, &error));
+    imp_scene *scene = finish(b);
+    for (size_t body = 0; body < 2; ++body)
+        for (size_t k = 0; k < 3; ++k)
+            ck_assert_ptr_eq(surface_origin(scene_surface(scene, body, 0), k),
+                             surface_origin(scene_surface(whole, body, 0), k));
+    ck_assert(imp_scene_ignores(scene, 0, 1) && imp_scene_ignores(scene, 1, 2));
+    ck_assert(!imp_scene_is_solid(scene, 0) && imp_scene_is_solid(scene, 1));
+    imp_scene_free(whole);
+    assert_point(scene, 0, 0, 4, 2, 3);
+    assert_point(scene, 1, 0, 5, 2, 3);
+    imp_scene_free(scene);
+}
+END_TEST
+
+START_TEST(bodies_of_a_scene_of_another_registry_are_refused)
+{
+    sandbox box = sandbox_new();
+    imp_registry *other = imp_registry_new(box.path);
+    imp_scene *scene = template_scene();
+    imp_builder *b = imp_builder_new(other);
+    refused(imp_builder_bodies_of(b, scene, &error), IMP_ERROR_USAGE, "of another registry");
+    imp_builder_free(b);
+    b = begin();
+    good(imp_builder_parameter(b, "p", 0, 1, &error));
+    refused(imp_builder_bodies_of(b, scene, &error), IMP_ERROR_USAGE, "or parameters already");
+    imp_builder_free(b);
+    imp_scene_free(scene);
+    imp_registry_free(other);
+    sandbox_remove(&box);
+}
+END_TEST
+
 START_TEST(a_surface_of_a_type_that_the_registry_lacks_is_refused)
 {
     imp_builder *b = begin();
@@ -300,4 +365,6 @@ SUITE_MAIN("builder", a_scene_built_is_the_scene_that_is_written, values_of_ever
            numbers_make_the_instance_that_an_object_makes, errors_name_body_and_parameter,
            tables_and_names_that_cannot_be_are_refused, calls_out_of_order_are_refused,
            a_builder_that_is_done_takes_nothing_more, a_surface_of_another_scene_is_shared,
+           bodies_of_another_scene_are_as_they_are_there,
+           bodies_of_a_scene_of_another_registry_are_refused,
            a_surface_of_a_type_that_the_registry_lacks_is_refused, time_left_is_the_papers_h)

@@ -94,6 +94,19 @@ class _Assembly:
         for group in body.get("group", ()):
             self.call(lib.library.imp_builder_group, index, values.text("group", group))
 
+    def begin(self, head: document.Document) -> None:
+        """The times, and the parameters."""
+        self.call(lib.library.imp_builder_time, *head["time"])
+        for name, ends in head.get("parameters", {}).items():
+            self.call(lib.library.imp_builder_parameter, values.text("parameters", name), *ends)
+
+    def bodies(self, made: document.Document) -> None:
+        """Its bodies without their parents, and who ignores whom."""
+        for k, body in enumerate(made["bodies"]):
+            self.body(k, body)
+        for x, y in made["ignore"]:
+            self.call(lib.library.imp_builder_ignore, values.text("ignore", x), values.text("ignore", y))
+
     def finish(self) -> int:
         address = lib.library.imp_builder_finish(self._builder, c.byref(self._error))
         if not address:
@@ -121,21 +134,64 @@ def scene_of(made: document.Document, name: str) -> Scene:
         return Scene.from_json(document.to_text(made), name=name)
     folder = os.getcwd()
     with _Assembly() as assembly:
-        assembly.call(lib.library.imp_builder_time, *made["time"])
-        for name, ends in made.get("parameters", {}).items():
-            assembly.call(lib.library.imp_builder_parameter, values.text("parameters", name), *ends)
-        index = {}
-        for k, body in enumerate(made["bodies"]):
-            assembly.body(k, body)
-            index[body["name"]] = k
-        for k, body in enumerate(made["bodies"]):
-            if "parent" in body:
-                if body["parent"] not in index:
-                    raise values.refuse(f"{body['name']}: parent", body["parent"], "the name of a body")
-                assembly.call(lib.library.imp_builder_parent, k, index[body["parent"]])
-        for x, y in made["ignore"]:
-            assembly.call(lib.library.imp_builder_ignore, values.text("ignore", x), values.text("ignore", y))
+        assembly.begin(made)
+        assembly.bodies(made)
+        for k, parent in _parents(made["bodies"]):
+            assembly.call(lib.library.imp_builder_parent, k, parent)
         return Scene._made(Handle(assembly.finish(), lambda: document.resolved(made, folder)))
+
+
+def _parents(bodies: List[Mapping[str, Any]]) -> List[Tuple[int, int]]:
+    """The numbers of bodies and of their parents."""
+    index = {body["name"]: k for k, body in enumerate(bodies)}
+    parents = []
+    for k, body in enumerate(bodies):
+        if "parent" in body:
+            if body["parent"] not in index:
+                raise values.refuse(f"{body['name']}: parent", body["parent"], "the name of a body")
+            parents.append((k, index[body["parent"]]))
+    return parents
+
+
+class Template:
+    """What many scenes have in common: a document's bodies and "ignore", without the maps of some bodies.
+    A process makes a scene of it once, and begins others with that."""
+
+    def __init__(self, bodies: List[Mapping[str, Any]], ignore: List[Any]):
+        self._made: document.Document = {"time": [0.0, 0.0], "bodies": bodies, "ignore": ignore}
+        self._names = tuple(body["name"] for body in bodies)
+        self._is_plain = _is_plain(self._made)
+        self._parents = _parents(bodies)
+        self._begun: Optional[Tuple[int, Handle]] = None  # the process that made it
+
+    def _handle(self) -> Handle:
+        begun = self._begun
+        if begun is None or begun[0] != os.getpid():  # a fork may have left it half-made
+            with _Assembly() as assembly:
+                assembly.bodies(self._made)
+                begun = os.getpid(), Handle(assembly.finish(), lambda: self._made)
+            self._begun = begun
+        return begun[1]
+
+    def _document(self, head: document.Document, maps: Mapping[int, List[Stage]]) -> document.Document:
+        bodies = [{**body, "maps": maps[k]} if k in maps else body for k, body in enumerate(self._made["bodies"])]
+        return {**head, "bodies": bodies, "ignore": self._made["ignore"]}
+
+    def scene(self, head: document.Document, maps: Mapping[int, List[Stage]], name: str) -> Scene:
+        """The scene with the head's "time" and "parameters", and maps of bodies that have none, by number."""
+        if not self._is_plain or "parameters" in head:
+            return scene_of(self._document(head, maps), name)
+        folder, begun = os.getcwd(), self._handle()
+        with _Assembly() as assembly:
+            assembly.call(lib.library.imp_builder_bodies_of, begun.address)
+            assembly.begin(head)
+            for k, stages in maps.items():
+                for stage in stages:
+                    assembly.add(lib.library.imp_builder_map, stage, k)
+            for k, parent in self._parents:
+                assembly.call(lib.library.imp_builder_parent, k, parent)
+            handle = Handle(assembly.finish(), lambda: document.resolved(self._document(head, maps), folder))
+        return Scene._made(handle, self._names)
 
 
 def share(surfaces: Iterable[Stage]) -> None:

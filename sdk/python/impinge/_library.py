@@ -256,6 +256,7 @@ _FUNCTIONS = {
     "imp_builder_time": (c.c_int, _P, _D, _D, _E),
     "imp_builder_gamma": (c.c_int, _P, _D, _D, _E),
     "imp_builder_parameter": (c.c_int, _P, _S, _D, _D, _E),
+    "imp_builder_bodies_of": (c.c_int, _P, _P, _E),
     "imp_builder_body": (c.c_int, _P, _S, c.POINTER(_N), _E),
     "imp_builder_solid": (c.c_int, _P, _N, c.c_bool, _E),
     "imp_builder_surface": (c.c_int, _P, _N, _S, _A, _N, _E),

@@ -60,9 +60,11 @@ class Scene:
         self._begin_text(data, name)
         self._source = sha256(data).hexdigest()
 
-    def _begin(self, handle: Handle) -> None:
+    def _begin(self, handle: Handle, names: Optional[Tuple[str, ...]] = None) -> None:
+        """`names`: of a scene without parameters, where they are known."""
         self._handle = handle
-        self.bodies, self.parameters = handle.names(), parameters_of(handle)
+        self.bodies = handle.names() if names is None else names
+        self.parameters = parameters_of(handle) if names is None else {}
 
     def _begin_text(self, data: bytes, name: str) -> None:
         """As the text says; relative names of files begin at the folder of `name`."""
@@ -71,9 +73,9 @@ class Scene:
         self._begin(Handle(address, lambda: document.from_text(data, folder)))
 
     @classmethod
-    def _made(cls: Type[AnyScene], handle: Handle) -> AnyScene:
+    def _made(cls: Type[AnyScene], handle: Handle, names: Optional[Tuple[str, ...]] = None) -> AnyScene:
         scene = cls.__new__(cls)
-        scene._begin(handle)
+        scene._begin(handle, names)
         return scene
 
     @classmethod

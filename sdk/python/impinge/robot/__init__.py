@@ -13,11 +13,12 @@ Bodies are surfaces: what is inside of another body from the start on touches no
 angles in rad, as URDF has them."""
 
 import os
+import weakref
 from typing import Any, Dict, Iterable, List, Mapping, Optional, Sequence, Set, Tuple, Union
 
 from .. import _document as document
 from .. import _values as values
-from .._assembly import Stage, scene_of, share
+from .._assembly import Stage, Template, share
 from ..errors import SceneError, UsageError
 from ..scene import Scene
 from ._check import Limits, LinkPair, Links, check_pair
@@ -32,6 +33,8 @@ __all__ = ["Joint", "LinkPair", "Matrix", "Robot", "Shape", "World", "load"]
 
 AnyWorld = Union[values.Path, World, Sequence[Mapping[str, Any]]]
 Pairs = Iterable[Tuple[str, str]]
+
+_NOTHING = World()
 
 
 class Robot:
@@ -56,6 +59,7 @@ class Robot:
         self._surfaces = {link: [surface_at(shape, self._frames[link]) for shape in shapes]
                           for link, shapes in model.links.items()}
         self._process = 0  # the one that has the surfaces
+        self._templates: "weakref.WeakKeyDictionary[World, Template]" = weakref.WeakKeyDictionary()
         self._joined = {pair for link in model.links for pair in self._pair_above(link)}
 
     def __repr__(self) -> str:
@@ -80,22 +84,14 @@ class Robot:
         times, and each that slides by that length: the scene's parameters are these errors, "JOINT.error", so
         that `solve` and `clearance` answer for all of them at once."""
         self._share()
-        around = self._around(world)
+        template = self._template(world, allowed)
         ranges = {} if errors is None else self._errors(errors)
         courses = self._variables.courses(times, positions, velocities, accelerations, interpolation)
-        bodies: List[Mapping[str, Any]] = [self._body(link, courses, ranges) for link in self.links]
-        group = self._free_name(around)
-        for body in around.bodies:
-            bodies.append(self._attached(body) if "parent" in body else {**body, "group": [group]})
         at = next(iter(courses.values())).times if courses else values.array("times", times)
-        ignored = self._joined | self._allowed(around, allowed) | set(around.touching)
-        made: document.Document = {"time": [float(at[0]), float(at[-1])], "bodies": bodies,
-                                   "ignore": [list(pair) for pair in sorted(ignored)]}
+        head: document.Document = {"time": [float(at[0]), float(at[-1])]}
         if ranges:
-            made["parameters"] = {name: list(ends) for name, ends in ranges.items()}
-        if any("parent" not in body for body in around.bodies):
-            made["ignore"].append([group, group])
-        return scene_of(made, self.name or "robot")
+            head["parameters"] = {name: list(ends) for name, ends in ranges.items()}
+        return template.scene(head, self._maps(courses, ranges), self.name or "robot")
 
     def world(self, path: values.Path) -> World:
         """The bodies and the allowed collision matrix of a planning scene of MoveIt, in YAML: primitives and
@@ -162,7 +158,10 @@ class Robot:
             self._process = os.getpid()
 
     def __getstate__(self) -> Dict[str, Any]:
-        return {**self.__dict__, "_process": 0}
+        return {**self.__dict__, "_process": 0, "_templates": None}
+
+    def __setstate__(self, state: Dict[str, Any]) -> None:
+        self.__dict__.update(state, _templates=weakref.WeakKeyDictionary())
 
     def _states(self) -> Dict[str, Dict[str, float]]:
         found: Dict[str, Dict[str, float]] = {}
@@ -204,16 +203,43 @@ class Robot:
         factor = 1.0 if joint.mimic is None else joint.factor
         return maps_of_hinge(joint, self._frames[joint.child], Following(name, factor))
 
-    def _body(self, link: str, courses: Mapping[str, Course],
-              ranges: Mapping[str, Tuple[float, float]]) -> Dict[str, Any]:
+    def _maps(self, courses: Mapping[str, Course], ranges: Mapping[str, Tuple[float, float]]
+              ) -> Dict[int, List[Stage]]:
+        """The maps of links that joints move, by their numbers."""
+        made = {}
+        for k, link in enumerate(self.links):
+            joint = self._joint_of.get(link)
+            if joint is not None and joint.kind != "fixed":
+                maps = [*maps_of_joint(joint, self._frames[link], courses), *self._error_maps(joint, ranges)]
+                if maps:
+                    made[k] = maps
+        return made
+
+    def _body(self, link: str) -> Dict[str, Any]:
+        """A link without the maps of its joint."""
         body: Dict[str, Any] = {"name": link, "surfaces": self._surfaces[link]}
-        joint = self._joint_of.get(link)
-        if joint is not None:
-            maps = [*maps_of_joint(joint, self._frames[link], courses), *self._error_maps(joint, ranges)]
-            body["parent"] = joint.parent
-            if maps:
-                body["maps"] = maps
+        if link in self._joint_of:
+            body["parent"] = self._joint_of[link].parent
         return body
+
+    def _template(self, world: Optional[AnyWorld], allowed: Optional[Pairs]) -> Template:
+        """What all scenes in a world have in common, kept as long as a World whose parts nobody changes."""
+        around = _NOTHING if world is None else self._around(world)
+        made = self._templates.get(around) if allowed is None else None
+        if made is not None:
+            return made
+        bodies: List[Mapping[str, Any]] = [self._body(link) for link in self.links]
+        group = self._free_name(around)
+        for body in around.bodies:
+            bodies.append(self._attached(body) if "parent" in body else {**body, "group": [group]})
+        ignored = self._joined | self._allowed(around, allowed) | set(around.touching)
+        ignore = [list(pair) for pair in sorted(ignored)]
+        if any("parent" not in body for body in around.bodies):
+            ignore.append([group, group])
+        made = Template(bodies, ignore)
+        if allowed is None:
+            self._templates[around] = made
+        return made
 
     def _attached(self, body: Mapping[str, Any]) -> Mapping[str, Any]:
         """A body in the frame of its parent; a link, whose maps begin where it rests, or another body."""
@@ -229,9 +255,9 @@ class Robot:
 
     # --- What is around -----------------------------------------------------------------------------
 
-    def _around(self, world: Optional[AnyWorld]) -> World:
-        if world is None:
-            return World()
+    def _around(self, world: AnyWorld) -> World:
+        if isinstance(world, World) and world in self._templates:  # its names are checked
+            return world
         if isinstance(world, (str, os.PathLike)):
             world = self.world(world)
         around = world if isinstance(world, World) else World(list(world))

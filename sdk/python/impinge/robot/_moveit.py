@@ -47,11 +47,11 @@ class Matrix:
         return [(a, b) for a, b in found]
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, eq=False)
 class World:
     """What a planning scene has around a robot: bodies as of a scene file; those that are attached name a
     link as their "parent". `touching` are pairs of an attached body and a link that may touch it. `allowed`
-    replaces what an SRDF file disables; None: the scene has no matrix."""
+    replaces what an SRDF file disables; None: the scene has no matrix. It is not changed any more."""
 
     bodies: Sequence[Mapping[str, Any]] = ()
     allowed: Optional[Matrix] = None
