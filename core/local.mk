@@ -173,8 +173,10 @@ core_bounds = \
 
 core_witness = \
     core/witness/contact_estimate.c core/witness/contact_estimate.h \
+    core/witness/fall.c core/witness/fall.h \
     core/witness/net_eval.c core/witness/net_eval.h \
     core/witness/newton.c core/witness/newton.h \
+    core/witness/search.c core/witness/search.h \
     core/witness/witness.c core/witness/witness.h
 
 core_broad_phase = \

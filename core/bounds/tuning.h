@@ -177,4 +177,11 @@ TUNING_NUMBER(TUNING_NEWTON_GAIN, 1e-4);
 /* A step is left out if its predicted change of the squared gap is below twice this part of it. */
 TUNING_NUMBER(TUNING_NEWTON_PROMISE, 1e-8);
 
+/* --- The fall of a witness in time (fall.c) --------------------------------------------------- */
+
+/* Most further witnesses sought. */
+TUNING_INTEGER(TUNING_FALL_STEPS, 12);
+/* A fall ends where it saves less than this part of the bracket's greatest width. */
+TUNING_NUMBER(TUNING_FALL_GAIN, 0.0625);
+
 #endif

@@ -13,6 +13,7 @@
 #include "core/solver/contradiction.h"
 #include "core/solver/pair_note.h"
 #include "core/solver/pair_step.h"
+#include "core/witness/fall.h"
 
 /* --- Bounds and limits ------------------------------------------------------------------------ */
 
@@ -132,6 +133,21 @@ static void test_and_push(min_distance *m, pair p)
 
 /* --- Expanding one pair ----------------------------------------------------------------------- */
 
+/* Lets a witness that lowers `upper` fall to the time at which its gap is least, if the bracket is
+ * to become narrow. */
+static imp_code lower_in_time(min_distance *m, const node *const nodes[2], double *t, witness *seen,
+                              imp_error *error)
+{
+    const time_window times = window_common(m->window, pair_times(nodes[0], nodes[1]));
+    const double gain = TUNING_FALL_GAIN * m->tolerance * seen->gap_upper;
+    size_t searches = 0;
+    if (m->required > 0) return IMP_SUCCESS;
+    imp_code code = witness_polish(nodes, *t, seen, error);
+    if (code == IMP_SUCCESS) code = witness_fall(nodes, &times, gain, t, seen, &searches, error);
+    m->stats->witness_searches += searches;
+    return code;
+}
+
 /* Among the pieces that the hint names, or else that are nearest. */
 static imp_code find_witness(min_distance *m, const pair *p, const piece_hint *hint,
                              imp_error *error)
@@ -144,15 +160,18 @@ static imp_code find_witness(min_distance *m, const pair *p, const piece_hint *h
     if (code == IMP_SUCCESS) code = pair_descend(&single, both, m->stats, error);
     if (code != IMP_SUCCESS) return code;
     const node *const nodes[2] = {single.a, single.b};
+    double t = p->moment;
     m->stats->witness_searches += 1;
-    code = witness_seek(nodes, p->moment, m->upper, &seen, error);
+    code = witness_seek(nodes, t, m->upper, &seen, error);
     if (code != IMP_SUCCESS || !(seen.gap_upper < m->upper)) return code;
     if (seen.gap_upper < p->key[0])
-        return contradiction_fault(single.a->surface, single.b->surface, seen.gap_upper, p->moment,
+        return contradiction_fault(single.a->surface, single.b->surface, seen.gap_upper, t,
                                    p->key[0], error);
+    code = lower_in_time(m, nodes, &t, &seen, error);
+    if (code != IMP_SUCCESS) return code;
     m->upper = seen.gap_upper;
     m->found = seen;
-    m->t = p->moment;
+    m->t = t;
     m->candidate = p->candidate_pair;
     return IMP_SUCCESS;
 }

@@ -25,6 +25,10 @@ typedef struct witness {
 imp_code witness_seek(const node *const nodes[2], double t, double gamma, witness *found,
                       imp_error *error);
 
+/* Seeks points nearer to each other than those of *found, a witness at time t of the two nodes,
+ * with the derivatives of models around the points, which are exact but for rounding. */
+imp_code witness_polish(const node *const nodes[2], double t, witness *found, imp_error *error);
+
 /* Evaluates points at n parameters (u, v, t), n <= WITNESS_POINTS, and bounds their distances from
  * the exact points. */
 enum { WITNESS_POINTS = 3 };

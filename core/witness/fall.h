@@ -1,0 +1,22 @@
+/* SPDX-FileCopyrightText: The Impinge authors
+ * SPDX-License-Identifier: Apache-2.0 */
+#ifndef CORE_WITNESS_FALL_H
+#define CORE_WITNESS_FALL_H
+
+#include "core/bounds/time_window.h"
+#include "core/witness/witness.h"
+
+/* A witness whose time falls to where the gap is least
+ * ====================================================
+ * The gap of the nearest points changes at the rate normal.(velocity of b's point - velocity of a's
+ * point). A root of that rate, sought by the secant method within the nodes' times, is a time of
+ * least gap. Finding none proves nothing: the result is a witness like any other. */
+
+/* Replaces *found, a witness at *t, and *t by a witness of smaller gap at another time of `times`,
+ * if that saves more than `gain` (length). Precondition: `times` lies in both nodes' times, neither
+ * of which is a cluster. *searches counts witness searches. IMP_ERROR_PLUGIN: an evaluation
+ * failed. */
+imp_code witness_fall(const node *const nodes[2], const time_window *times, double gain, double *t,
+                      witness *found, size_t *searches, imp_error *error);
+
+#endif
