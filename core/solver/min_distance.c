@@ -139,11 +139,11 @@ static imp_code lower_in_time(min_distance *m, const node *const nodes[2], doubl
                               imp_error *error)
 {
     const time_window times = window_common(m->window, pair_times(nodes[0], nodes[1]));
-    const double gain = TUNING_FALL_GAIN * m->tolerance * seen->gap_upper;
+    const double part = TUNING_FALL_GAIN * m->tolerance;
     size_t searches = 0;
     if (m->required > 0) return IMP_SUCCESS;
     imp_code code = witness_polish(nodes, *t, seen, error);
-    if (code == IMP_SUCCESS) code = witness_fall(nodes, &times, gain, t, seen, &searches, error);
+    if (code == IMP_SUCCESS) code = witness_fall(nodes, &times, part, t, seen, &searches, error);
     m->stats->witness_searches += searches;
     return code;
 }

@@ -38,48 +38,53 @@ static imp_code find_rate(const node *const nodes[2], const time_window *times, 
     return IMP_SUCCESS;
 }
 
-/* Seeks the witness at *m's time. */
-static imp_code look(const node *const nodes[2], const time_window *times, double near, moment *m,
-                     imp_error *error)
+/* Seeks the witness at *m's time from that at another. */
+static imp_code look(const node *const nodes[2], const time_window *times, const witness *from,
+                     moment *m, imp_error *error)
 {
-    imp_code code = witness_seek(nodes, m->t, near, &m->seen, error);
-    if (code == IMP_SUCCESS) code = witness_polish(nodes, m->t, &m->seen, error);
+    m->seen = *from;
+    const imp_code code = witness_polish(nodes, m->t, &m->seen, error);
     return code == IMP_SUCCESS ? find_rate(nodes, times, m, error) : code;
 }
 
-/* The time at which the line through both rates is 0, if that is between `from` and `to`, and not
- * next to either; else their middle. */
-static double root_between(const moment *x, const moment *y, double from, double to)
+/* The time at which the line through both rates is 0, if that is between `from` and `end`, and not
+ * next to either; else their middle, or `end` if that `is_open`, so was not looked at. */
+static double root_between(const moment *x, const moment *y, double from, double end, bool is_open)
 {
-    const double middle = 0.5 * from + 0.5 * to, least = 0x1p-6 * fabs(to - from);
+    const double way = end - from, least = 0x1p-6;
     const double t = x->t - x->rate * ((y->t - x->t) / (y->rate - x->rate));
-    const double lo = from < to ? from : to, hi = from < to ? to : from;
-    if (!(t > lo && t < hi)) return middle;
-    return t < lo + least ? lo + least : t > hi - least ? hi - least : t;
+    const double part = (t - from) / way;
+    if (is_open && part > 1 - least) return end;
+    if (!(part > 0 && part < 1)) return 0.5 * from + 0.5 * end;
+    return from + way * (part < least ? least : part > 1 - least ? 1 - least : part);
 }
 
 /* `best` falls towards `end`, whose side is that of its rate. While no rate of the other sign is
  * known, the next time is that at which the rate would be 0; from then on, the bracket of both
- * shrinks. */
-imp_code witness_fall(const node *const nodes[2], const time_window *times, double gain, double *t,
+ * shrinks. It ends where the bracket's rates promise less than `part` of the gap. */
+imp_code witness_fall(const node *const nodes[2], const time_window *times, double part, double *t,
                       witness *found, size_t *searches, imp_error *error)
 {
     moment best = {.t = *t, .seen = *found};
     imp_code code = find_rate(nodes, times, &best, error);
     double end = best.rate > 0 ? times->lo : times->hi, next = 0.5 * best.t + 0.5 * end;
+    bool is_open = true;
     for (int k = 0; code == IMP_SUCCESS && k < TUNING_FALL_STEPS; ++k) {
+        const double gain = part * best.seen.gap_upper;
         if (!(fabs(best.rate) * fabs(end - best.t) > gain) || next == best.t) break;
         moment m = {.t = next};
         *searches += 1;
-        code = look(nodes, times, found->gap_upper, &m, error);
+        code = look(nodes, times, &best.seen, &m, error);
         if (code != IMP_SUCCESS) break;
         const bool is_lower = m.seen.gap_upper < best.seen.gap_upper;
         const bool turns = (m.rate > 0) != (best.rate > 0);
         const moment last = best;
         if (is_lower) best = m;
+        is_open = is_open && !turns && is_lower;
         if (turns || !is_lower) end = is_lower ? last.t : m.t;
-        next = root_between(&last, &m, best.t, end);
-        if (is_lower && !(last.seen.gap_upper - m.seen.gap_upper > gain)) break;
+        next = root_between(&last, &m, best.t, end, is_open);
+        const double left = 0.5 * fabs(best.rate) * fabs(next - best.t);
+        if (turns && !(left > part * best.seen.gap_upper)) break;
     }
     *t = best.t;
     *found = best.seen;

@@ -400,5 +400,6 @@ grid() {
 
 @test "slices are written in the fewest digits that read back" {
     run -0 "$IMPINGE" clearance "${passing[@]}" --profile 5
-    [[ ${lines[1]} == "0,0.2,"* && ${lines[2]} == "0.2,0.4,"* && $output != *0000000000* ]]
+    [[ ${lines[1]} == "0,0.2,"* && ${lines[2]} == "0.2,0.4,"* ]]
+    [[ $(cut -d, -f1,2 <<<"$output") != *0000000000* ]]
 }
