@@ -217,6 +217,7 @@ core_solver = \
     core/solver/pair_spread.c core/solver/pair_spread.h \
     core/solver/pair_step.c core/solver/pair_step.h \
     core/solver/pair_test.c core/solver/pair_test.h \
+    core/solver/piece_walk.c core/solver/piece_walk.h \
     core/solver/query.c \
     core/solver/query_answer.c \
     core/solver/query_clearance.c \

@@ -177,6 +177,11 @@ TUNING_NUMBER(TUNING_NEWTON_GAIN, 1e-4);
 /* A step is left out if its predicted change of the squared gap is below twice this part of it. */
 TUNING_NUMBER(TUNING_NEWTON_PROMISE, 1e-8);
 
+/* --- The walk of a witness to neighbouring pieces (piece_walk.c) ------------------------------ */
+
+/* Most pairs of pieces tried in one walk. */
+TUNING_INTEGER(TUNING_WALK_TRIES, 64);
+
 /* --- The fall of a witness in time (fall.c) --------------------------------------------------- */
 
 /* Most further witnesses sought. */

@@ -13,6 +13,7 @@
 #include "core/solver/contradiction.h"
 #include "core/solver/pair_note.h"
 #include "core/solver/pair_step.h"
+#include "core/solver/piece_walk.h"
 #include "core/witness/fall.h"
 
 /* --- Bounds and limits ------------------------------------------------------------------------ */
@@ -148,6 +149,17 @@ static imp_code lower_in_time(min_distance *m, const node *const nodes[2], doubl
     return code;
 }
 
+/* Lets the witness at p->moment of two pieces walk to their neighbours. */
+static imp_code walk_on(min_distance *m, const pair *p, pair *single, witness *seen,
+                        imp_error *error)
+{
+    piece_walk w = {*single, *seen, p->moment};
+    const imp_code code = piece_walk_on(&w, p, &m->candidates[p->candidate_pair], m->stats, error);
+    *single = w.single;
+    *seen = w.seen;
+    return code;
+}
+
 /* Among the pieces that the hint names, or else that are nearest. */
 static imp_code find_witness(min_distance *m, const pair *p, const piece_hint *hint,
                              imp_error *error)
@@ -159,14 +171,16 @@ static imp_code find_witness(min_distance *m, const pair *p, const piece_hint *h
     if (hint != NULL) code = pair_descend_to(&single, hint->piece, both, m->stats, error);
     if (code == IMP_SUCCESS) code = pair_descend(&single, both, m->stats, error);
     if (code != IMP_SUCCESS) return code;
-    const node *const nodes[2] = {single.a, single.b};
+    const node *nodes[2] = {single.a, single.b};
     double t = p->moment;
     m->stats->witness_searches += 1;
     code = witness_seek(nodes, t, m->upper, &seen, error);
+    if (code == IMP_SUCCESS && hint != NULL) code = walk_on(m, p, &single, &seen, error);
     if (code != IMP_SUCCESS || !(seen.gap_upper < m->upper)) return code;
     if (seen.gap_upper < p->key[0])
         return contradiction_fault(single.a->surface, single.b->surface, seen.gap_upper, t,
                                    p->key[0], error);
+    nodes[0] = single.a, nodes[1] = single.b;
     code = lower_in_time(m, nodes, &t, &seen, error);
     if (code != IMP_SUCCESS) return code;
     m->upper = seen.gap_upper;

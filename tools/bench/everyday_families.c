@@ -131,9 +131,9 @@ const everyday_family everyday_families[] = {
     {"piston in a sleeve of 64 sides", LATHE(TUBE), "", LATHE("p 64 ~1:-0.5 ~1:0.5"),
      MOVE("0,0,0.25"), BOND_NONE, 0, false, "1234", 2000, "", ""},
     {"nested copies of a mesh", LATHE(FOLIAGE), "", LATHE(FOLIAGE), SCALE("~1"), BOND_NONE, 0,
-     false, "1234", 2000, "", "1"},
+     false, "1234", 2000, "", ""},
     {"nested copies of a mesh, carried", LATHE(FOLIAGE), TUMBLE, LATHE(FOLIAGE), SCALE("~1"),
-     BOND_PARENT, 0, false, "1234", 2000, "", "1"},
+     BOND_PARENT, 0, false, "1234", 2000, "", ""},
     {"gears whose tips pass", LATHE("p 64 1/0.85:0 1/0.85:0.3"), TURN(Z_AXIS, "2"),
      LATHE("p 64 1/0.85:0 1/0.85:0.3"),
      MOVE("0,0,0") "," TURN(Z_AXIS, "-2") ","
