@@ -257,6 +257,7 @@ static void set_unbounded(const value_box *box, double *shift, surface_image *im
 {
     for (size_t k = 0; k < box->count; ++k) shift[k] = INFINITY;
     image->follows_time = true;
+    image->drift = INFINITY;
     for (int i = 0; i < 3; ++i) image->lo[i] = -INFINITY, image->hi[i] = INFINITY;
 }
 
@@ -268,7 +269,10 @@ static void set_unbounded(const value_box *box, double *shift, surface_image *im
  *
  * the first at most the speed times |q(p) - q(c)|, since x(p) lies in the reach, the second the
  * stretch times |x(p) - x(c)|, since the reach is convex. What the first adds is counted for the
- * parameter that the map follows. Two products and a sum for each map. */
+ * parameter that the map follows. Two products and a sum for each map.
+ *
+ * Likewise for time: from one time in question to another, stages that follow it move points by at
+ * most their speed times the length of the times; `drift` sums these as shifts are summed. */
 PAD_COVERS(8, 2 + 1);
 imp_status surface_shift_trace(const surface *s, const surface_extent *extent, size_t left_out,
                                const value_box *box, double *shift, surface_image *image,
@@ -280,8 +284,9 @@ imp_status surface_shift_trace(const surface *s, const surface_extent *extent, s
     for (int i = 0; i < 3; ++i) r.lo[i] = extent->lo[i], r.hi[i] = extent->hi[i];
     ball_of_box(&r);
     for (size_t k = 0; k < box->count; ++k) shift[k] = 0;
-    image->follows_time =
-        s->origin->inner == NULL && (extent->speed != 0 || !is_timeless(s->origin));
+    bool is_timed = s->origin->inner == NULL && !is_timeless(s->origin);
+    const double span = sum_upper(box->t_end, -box->t_start);
+    image->drift = s->origin->inner == NULL && extent->speed != 0 ? extent->speed * span : 0;
     if (s->origin->inner != NULL)
         shift[s->origin->clock] =
             padded_upper(extent->speed * clock_reach_upper(s->origin, box), 8) + PRODUCTS_UNDERFLOW;
@@ -294,7 +299,10 @@ imp_status surface_shift_trace(const surface *s, const surface_extent *extent, s
                 {r.centre[0], r.centre[1], r.centre[2]}, r.radius, to.stretch, to.speed};
         if (status == IMP_STATUS_OK) status = advance(&to, &r);
         if (status != IMP_STATUS_OK) break;
-        if (p->inner == NULL && (to.moves || !is_timeless(p))) image->follows_time = true;
+        is_timed = is_timed || (p->inner == NULL && !is_timeless(p));
+        if (to.stretch != 1) image->drift = padded_upper(image->drift * to.stretch, 8);
+        if (p->inner == NULL && to.moves)
+            image->drift = padded_upper(image->drift + to.speed * span, 8) + PRODUCTS_UNDERFLOW;
         for (size_t k = 0; k < box->count; ++k) {
             if (to.stretch != 1) shift[k] = padded_upper(shift[k] * to.stretch, 8);
             if (p->inner != NULL && p->clock == k)
@@ -303,6 +311,8 @@ imp_status surface_shift_trace(const surface *s, const surface_extent *extent, s
         }
     }
     for (int i = 0; i < 3; ++i) image->lo[i] = r.lo[i], image->hi[i] = r.hi[i];
+    image->drift = padded_upper(image->drift, 8);
+    image->follows_time = is_timed || !(image->drift <= SURFACE_STILL);
     if (status != IMP_STATUS_UNBOUNDED) return status;
     set_unbounded(box, shift, image);
     return IMP_STATUS_OK;

@@ -28,14 +28,19 @@ typedef struct surface_extent {
 /* A status other than OK is a fault of the type. */
 imp_status surface_extent_find(const surface *s, const value_box *box, surface_extent *extent);
 
+/* A surface that time moves by no more than this counts as one that does not follow it. Rates of
+ * stages that stay where they are need not be 0: what formulas add for underflow remains. Length. */
+#define SURFACE_STILL 0x1p-300
+
 /* Bounds, for the surface without its last `left_out` maps, shift[k] >= the length by which any
  * point of it moves for parameter k alone, from the values `at` to any in the box: together they
  * move it by the sum at most. `image` becomes a box that holds it at all times and values, and
- * whether it may depend on time. The extent is that of this box or of a larger one. INFINITY: no
+ * tells whether it depends on time. The extent is that of this box or of a larger one. INFINITY: no
  * bound. A status other than OK is a fault of a map. */
 typedef struct surface_image {
     double lo[3], hi[3];
-    bool follows_time;
+    double drift;      /* how far the times move any point, at most; length */
+    bool follows_time; /* drift exceeds SURFACE_STILL, or it does not exist at all times */
 } surface_image;
 imp_status surface_shift_upper(const surface *s, const surface_extent *extent, size_t left_out,
                                const value_box *box, double *shift, surface_image *image);

@@ -38,7 +38,7 @@ static double tolerance_of(const imp_survey *s, double total)
 {
     const double own = 0.5 * s->question.clearance.tolerance, least = own > 1e-9 ? own : 1e-9,
                  most = 0.25;
-    if (!(total > 0)) return least;
+    if (!(total > 4 * SURFACE_STILL)) return least; /* no parameter can be halved */
     const double wanted =
         s->best.distance < INFINITY ? 0.5 * total / (s->best.distance + total) : most;
     return wanted > least ? wanted : least;

@@ -74,6 +74,20 @@ static bool report(void *context, const imp_progress *of_query)
     return s->question.options.progress(s->question.options.progress_context, &all);
 }
 
+/* The pairs that the survey's limit leaves; 0: no limit. */
+static uint64_t pairs_left(const imp_survey *s)
+{
+    const uint64_t most = s->question.options.max_pairs;
+    if (most == 0) return 0;
+    return s->counts.stats.pairs < most ? most - s->counts.stats.pairs : 1;
+}
+
+bool box_limits_first(const imp_survey *s, uint64_t pairs)
+{
+    const uint64_t left = pairs_left(s);
+    return pairs > 0 && !(left > 0 && left <= pairs);
+}
+
 /* `pairs` is a limit of the query's own; 0: none. */
 static imp_options options_of_query(imp_survey *s, double t_start, double t_end, uint64_t pairs)
 {
@@ -82,12 +96,7 @@ static imp_options options_of_query(imp_survey *s, double t_start, double t_end,
     options.t_end = t_end;
     options.progress = report;
     options.progress_context = s;
-    if (options.max_pairs > 0) /* 0 would be no limit */
-        options.max_pairs = s->counts.stats.pairs < options.max_pairs
-                                ? options.max_pairs - s->counts.stats.pairs
-                                : 1;
-    if (pairs > 0 && !(options.max_pairs > 0 && options.max_pairs <= pairs))
-        options.max_pairs = pairs;
+    options.max_pairs = box_limits_first(s, pairs) ? pairs : pairs_left(s);
     if (options.max_seconds > 0) {
         options.max_seconds -= survey_seconds(s);
         if (!(options.max_seconds > 0)) options.max_seconds = 0x1p-1000;

@@ -37,6 +37,9 @@ imp_code box_scene(imp_survey *s, const survey_box *box, imp_scene **made, imp_e
 imp_code box_run_contact(imp_survey *s, imp_scene *scene, query_times times, const double gamma[2],
                          uint64_t pairs, const query_spread *spread, imp_result *result,
                          imp_error *error);
+/* Whether such a limit ends a query before the survey's own would. */
+bool box_limits_first(const imp_survey *s, uint64_t pairs);
+
 imp_code box_run_distance(imp_survey *s, imp_scene *scene, query_times times, double within,
                           double tolerance, imp_clearance *answer, imp_error *error);
 

@@ -50,6 +50,7 @@ typedef struct survey_pair {
     size_t body[2];
     size_t left_out;       /* last maps that both share */
     size_t swept;          /* the parameter that queries take for their time; SIZE_MAX: none */
+    double drift;          /* how far that parameter moves, as a time, what stands still; length */
     uint64_t boxes, pairs; /* asked about; tested by their queries */
     double proved;         /* share */
 } survey_pair;
@@ -163,7 +164,8 @@ typedef struct box_bounds {
     double total;          /* >= shift of all parameters and both bodies together; length */
     double apart;          /* <= distance of the bodies at all values; length */
     double t_start, t_end; /* the times of these bounds */
-    bool follows_time;
+    bool follows_time;     /* some surface does (surface_shift.h); else */
+    double drift;          /* how far the times move both bodies, at most; length */
 } box_bounds;
 
 /* Bounds a box over these times. s->box.middle becomes the box's middle, followed by the ranges

@@ -160,6 +160,7 @@ static imp_code choose_swept(imp_survey *s, const survey_box *box, double t_star
     if (pair->body[0] == SURVEY_ALL_BODIES) return IMP_SUCCESS;
     imp_code code = survey_measure(s, box, 0, t_start, t_end, &bounds, error);
     if (code != IMP_SUCCESS || bounds.follows_time) return code;
+    pair->drift = bounds.drift;
     code = survey_measure(s, box, pair->left_out, t_start, t_end, &bounds, error);
     if (code != IMP_SUCCESS) return code;
     double most = 0;
@@ -169,8 +170,9 @@ static imp_code choose_swept(imp_survey *s, const survey_box *box, double t_star
 }
 
 /* Lemma. Where a parameter takes the place of time, stages that follow time are evaluated at the
- * values of the parameter, too. A stage whose rates in t are 0 over the times and all these values
- * is the same at all of them. */
+ * values of the parameter, too. That moves points by at most the drift over the times and all these
+ * values, which is added to the shift of each box. It is below 2^-299, far below what witnesses are
+ * padded by, and 0 where all rates in t are. */
 imp_code survey_choose_swept(imp_survey *s, imp_error *error)
 {
     double t_start = s->question.options.t_start, t_end = s->question.options.t_end;

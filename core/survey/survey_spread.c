@@ -4,6 +4,7 @@
 
 #include <stdlib.h>
 
+#include "core/base/rounding.h"
 #include "core/base/status.h"
 #include "core/survey/survey_internal.h"
 
@@ -73,6 +74,7 @@ imp_code survey_spread_make(imp_survey *s, const survey_box *box, const box_boun
                          .parameters = s->parameters,
                          .gamma = s->question.gamma,
                          .gamma_clear = s->question.gamma_clear};
+    if (pair->drift > 0) to->gamma_clear = sum_upper(to->gamma_clear, pair->drift);
     for (int side = 0; side < 2; ++side) {
         body_spread made;
         const bool room = make_room(s, pair->body[side], &made);

@@ -50,11 +50,42 @@ START_TEST(a_ball_and_a_plane_under_three_errors_are_as_near_as_the_worst_of_the
 }
 END_TEST
 
+/* An arm of lengths 1 and 0.7 whose elbow turns by b, and whose shoulder by a: its hand is sqrt(1 +
+ * 0.49 + 1.4 cos b) from the shoulder at any a, by the law of cosines. */
+START_TEST(a_hand_is_as_far_from_its_shoulder_as_the_law_of_cosines_says)
+{
+    brackets("{'parameters':{'a':[-3,3],'b':[-2.5,1]},'bodies':["
+             "{'surfaces':[{'type':'sphere','radius':0.05,'center':[1.7,0,0]}],"
+             "'maps':[{'type':'rotate','axis':[0,0,1],'center':[1,0,0],'rate':1,'clock':'b'},"
+             "{'type':'rotate','axis':[0,0,1],'rate':1,'clock':'a'}]},"
+             "{'surfaces':[{'type':'sphere','radius':0.1}]}]}",
+             sqrt(1.49 + 1.4 * cos(2.5)) - 0.15);
+}
+END_TEST
+
+/* A map that stays at one angle has rates in time that are not 0, but as small as underflow. */
+START_TEST(one_query_covers_a_parameter_though_another_map_stays_at_an_angle)
+{
+    imp_scene *scene = scene_of("{'parameters':{'a':[-3,3]},'bodies':["
+                                "{'surfaces':[{'type':'sphere','radius':0.1,'center':[1,0,0]}],"
+                                "'maps':[{'type':'rotate','axis':[1,2,3],'angle':[0.5]},"
+                                "{'type':'rotate','axis':[0,0,1],'rate':1,'clock':'a'}]},"
+                                "{'surfaces':[{'type':'sphere','radius':0.5}],"
+                                "'maps':[{'type':'rotate','axis':[1,1,0],'angle':[1]}]}]}");
+    const answer found = survey(scene, 1e-6, NULL, NULL);
+    ck_assert_int_eq(found.contact.verdict, IMP_VERDICT_CLEAR);
+    ck_assert_uint_eq(found.state.boxes, 1);
+    imp_scene_free(scene);
+}
+END_TEST
+
 int main(void)
 {
     const suite_loop loops[] = {
         {a_cone_with_two_tilts_comes_as_near_to_its_bore_as_its_rim, 1},
-        {a_ball_and_a_plane_under_three_errors_are_as_near_as_the_worst_of_them, 1}};
+        {a_ball_and_a_plane_under_three_errors_are_as_near_as_the_worst_of_them, 1},
+        {a_hand_is_as_far_from_its_shoulder_as_the_law_of_cosines_says, 1},
+        {one_query_covers_a_parameter_though_another_map_stays_at_an_angle, 1}};
     return suite_main_loops("survey_forms", loops, sizeof loops / sizeof *loops, open_registry,
                             close_registry);
 }
