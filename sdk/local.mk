@@ -120,6 +120,7 @@ python_robot = \
     sdk/python/impinge/robot/_moveit.py \
     sdk/python/impinge/robot/_positions.py \
     sdk/python/impinge/robot/_report.py \
+    sdk/python/impinge/robot/_seek.py \
     sdk/python/impinge/robot/_shapes.py \
     sdk/python/impinge/robot/_srdf.py \
     sdk/python/impinge/robot/_urdf.py

@@ -282,6 +282,8 @@ script_suites = \
 check_LTLIBRARIES = \
     tests/plugins/bad_name.la \
     tests/plugins/bad_parameter_table.la \
+    tests/plugins/bad_parts.la \
+    tests/plugins/parts_unread.la \
     tests/plugins/constructor_aborts.la \
     tests/plugins/constructor_crashes.la \
     tests/plugins/constructor_exits.la \
@@ -386,6 +388,8 @@ tests_plugins_fast_math_la_LDFLAGS = $(test_plugin_ldflags) -Wc,-ffast-math
 tests_support_fail_allocation_la_LDFLAGS = $(test_plugin_ldflags)
 tests_plugins_bad_name_la_LDFLAGS = $(test_plugin_ldflags)
 tests_plugins_bad_parameter_table_la_LDFLAGS = $(test_plugin_ldflags)
+tests_plugins_bad_parts_la_LDFLAGS = $(test_plugin_ldflags)
+tests_plugins_parts_unread_la_LDFLAGS = $(test_plugin_ldflags)
 tests_plugins_constructor_aborts_la_LDFLAGS = $(test_plugin_ldflags)
 tests_plugins_constructor_crashes_la_LDFLAGS = $(test_plugin_ldflags)
 tests_plugins_constructor_exits_la_LDFLAGS = $(test_plugin_ldflags)

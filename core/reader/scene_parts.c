@@ -70,7 +70,15 @@ static imp_code refuse(const type_view *view, const place *at, const char *why, 
                        view->name, why);
 }
 
-/* Reads one stage of the text and appends it. */
+/* Whether the clock of a part ranges from 0 to 0. */
+static bool stays(const json_t *part)
+{
+    const json_t *clock = json_object_get(part, "clock");
+    return json_array_size(clock) == 2 && json_number_value(json_array_get(clock, 0)) == 0 &&
+           json_number_value(json_array_get(clock, 1)) == 0;
+}
+
+/* Reads one stage of the text and appends it, but for one that stays. */
 static imp_code add_stage(const imp_registry *registry, const type_view *view, const char *stage,
                           const place *at, json_t *list, imp_error *error)
 {
@@ -82,6 +90,10 @@ static imp_code add_stage(const imp_registry *registry, const type_view *view, c
         json_decref(part);
         return refuse(view, at, "one of them has parts itself", error);
     }
+    if (stays(part)) {
+        json_decref(part);
+        return IMP_SUCCESS;
+    }
     return json_array_append_new(list, part) == 0 ? IMP_SUCCESS : error_set_memory(error);
 }
 
@@ -90,12 +102,10 @@ static imp_code add_stages(const imp_registry *registry, const type_view *view, 
                            const place *at, json_t *list, imp_error *error)
 {
     imp_code code = IMP_SUCCESS;
-    char *rest = NULL;
-    for (char *stage = strtok_r(text, "!", &rest); stage != NULL && code == IMP_SUCCESS;
-         stage = strtok_r(NULL, "!", &rest))
+    char *rest = NULL, *stage = strtok_r(text, "!", &rest);
+    if (stage == NULL) return refuse(view, at, "there are none", error);
+    for (; stage != NULL && code == IMP_SUCCESS; stage = strtok_r(NULL, "!", &rest))
         code = add_stage(registry, view, stage, at, list, error);
-    if (code == IMP_SUCCESS && json_array_size(list) == 0)
-        code = refuse(view, at, "there are none", error);
     return code;
 }
 

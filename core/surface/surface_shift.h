@@ -29,7 +29,8 @@ typedef struct surface_extent {
 imp_status surface_extent_find(const surface *s, const value_box *box, surface_extent *extent);
 
 /* A surface that time moves by no more than this counts as one that does not follow it. Rates of
- * stages that stay where they are need not be 0: what formulas add for underflow remains. Length. */
+ * stages that stay where they are need not be 0: what formulas add for underflow remains. Unit:
+ * length. */
 #define SURFACE_STILL 0x1p-300
 
 /* Bounds, for the surface without its last `left_out` maps, shift[k] >= the length by which any

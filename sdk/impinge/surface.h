@@ -536,9 +536,10 @@ typedef struct imp_map_type {
      * $NAME is the value of that parameter, which is required or has a default and is a number, or
      * several; it stands there as JSON. Each clock that is a range is a parameter of the scene of
      * its own, named after this type: TYPE#1, TYPE#2, ...; so one map may move with more than one
-     * t. The parts are types that the host finds by name, and have no parts themselves. create is
-     * called for what it refuses; the other callbacks are those of the map where each clock is in
-     * the middle of its range. */
+     * t. A part whose clock ranges from 0 to 0 is left out: it moves nothing there. The parts are
+     * types that the host finds by name, and have no parts themselves. create is called for what it
+     * refuses; the other callbacks are those of the map where each clock is in the middle of its
+     * range. */
     const char *parts;
 } imp_map_type;
 

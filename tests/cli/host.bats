@@ -9,6 +9,7 @@ load ../support/host_helper
 # --- Loading ------------------------------------------------------------------------------------
 sins_of_loading='bad_name: types: a type'"'"'s name is '"'"'bad name!'"'"'; must be
 bad_parameter_table: types: bad_parameter_table: radius: default_value: got -1, must be > 0
+bad_parts: types: bad_parts: parts name '"'"'$ofset'"'"', which must be a parameter of numbers that is required or has a default
 constructor_aborts: trial: loading it crashes: signal 6
 constructor_crashes: trial: loading it crashes: signal 11
 constructor_exits: trial: loading it ends the process with status 0; a plugin must not exit
@@ -30,10 +31,10 @@ wrong_abi_major: abi: abi_major is 9, the host'"'"'s is 1; rebuild the plugin'
     local name reason check
     while IFS=: read -r name reason; do takes "$name"; done <<<"$sins_of_loading"
     run -0 list
-    [[ $output == *'18 files or directories were rejected; `impinge list --refused` shows why.'* ]]
+    [[ $output == *'19 files or directories were rejected; `impinge list --refused` shows why.'* ]]
     run -0 list --json
     valid types
-    json '.refused | length == 18'
+    json '.refused | length == 19'
     while IFS=: read -r name reason; do
         left_out "$name.so" "${reason# }"
     done <<<"$sins_of_loading"
@@ -45,6 +46,15 @@ wrong_abi_major: abi: abi_major is 9, the host'"'"'s is 1; rebuild the plugin'
         [[ $output == *"  $check "*" refused "*"${reason#*: }"*'This file is rejected.' ]]
     done <refused
     still_works
+}
+
+@test "parts that cannot be read are told with the map that names them" {
+    takes parts_unread
+    fails 4 "parts_unknown: unknown map 'nothing_like_it'" pair 'sphere ! parts_unknown' sphere
+    fails 5 "the parts of 'parts_of_parts' cannot be read: one of them has parts itself" \
+        pair 'sphere ! parts_of_parts' sphere
+    fails 5 "the parts of 'parts_empty' cannot be read: there are none" pair 'sphere ! parts_empty' sphere
+    fails 4 'clock: got the range [1, -1]' pair 'sphere ! parts_reversed' sphere
 }
 
 @test "a type of a plugin that was rejected is unknown" {

@@ -351,7 +351,7 @@ three() {
         "$IMPINGE" pair 'sphere ! tolerance offset=0.4 clock=0,1' 'sphere center=3.5,0,0'
     fails 4 'must be >= 0' "$IMPINGE" pair 'sphere ! tolerance offset=-1' 'sphere center=3.5,0,0'
     printf '{"bodies": [%s, {"surfaces": [{"type": "sphere", "center": [9,0,0]}]}]}' \
-        "$(for k in 1 2 3 4 5 6; do echo '{"surfaces": [{"type": "sphere"}], "maps": [{"type": "tolerance", "offset": 1}]}'; done |
+        "$(for k in 1 2 3 4 5 6; do echo '{"surfaces": [{"type": "sphere"}], "maps": [{"type": "tolerance", "offset": 1, "angle": 0.01}]}'; done |
             paste -sd,)" >many.json
     fails 4 'more than 32 parameters' "$IMPINGE" solve many.json
 }

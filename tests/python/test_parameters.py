@@ -36,6 +36,21 @@ def test_the_least_distance_over_all_values_is_that_of_the_law_of_cosines():
     assert broken.verdict == "violated" and apart(**broken.parameters) - 0.5 <= 1.05 * best
 
 
+def test_a_tolerance_is_parameters_of_its_own():
+    builder = impinge.Builder(gamma=1e-3)
+    builder.body("part").surface("sphere", radius=1).map("tolerance", offset=0.25)
+    builder.body("wall").surface("sphere", radius=1, center=[3.5, 0, 0])
+    scene = builder.build()
+    assert scene.parameters == {f"tolerance#{k}": (-0.25, 0.25) for k in (1, 2, 3)}
+    found = scene.clearance(tolerance=0.05)
+    assert found.lower <= 1.25 <= found.upper * (1 + 1e-9) and found.lower > 1.15
+    assert found.parameters["tolerance#1"] > 0.15
+    assert scene.clearance(required=1.2).verdict == "holds"
+    assert scene.clearance(required=1.4).verdict == "violated"
+    with pytest.raises(impinge.SceneError, match="clocks of its own"):
+        impinge.Builder().body("part").surface("sphere").map("tolerance", offset=1, clock="a")
+
+
 def test_a_contact_names_values_where_it_is():
     scene = arm(radius=0.5)
     found = scene.solve()

@@ -10,6 +10,7 @@ import pytest
 from impinge import errors as errors_module
 from impinge import robot
 from impinge.robot import __main__ as command
+from impinge.robot import _check, _seek
 
 from support import SOURCE
 
@@ -69,6 +70,27 @@ def test_what_never_touches_is_apart_wherever_one_looks(arm, checked):
                          for name, (lo, hi) in one.joints.items()}
             found = distance(arm, pair, positions)
             assert found is None or found > 0
+
+
+def test_positions_that_touch_are_found_by_descent():
+    ranges = {"a": (-3.0, 3.0), "b": (-2.0, 1.0)}
+
+    def gap(at):
+        assert all(lo <= x <= hi for x, (lo, hi) in zip(at, ranges.values()))
+        return max(abs(at[0] - 0.3) + abs(at[1] + 2) - 0.001, 0)
+
+    found = _seek.touching(ranges, gap, 1e-6)
+    assert gap(list(found.values())) == 0 and list(found) == ["a", "b"]
+    assert found == _seek.touching(ranges, gap, 1e-6)
+    assert _seek.touching(ranges, lambda at: gap(at) + 0.1, 1e-6) is None
+
+
+def test_links_that_a_survey_does_not_see_touching_are_sought(arm, monkeypatch):
+    monkeypatch.setattr(_check, "_LOOK_AFTER", 1)
+    monkeypatch.setattr(_check.Survey, "_values", lambda self: None)
+    one = arm.check_pair("base", "slide", max_seconds=60)
+    assert one.verdict == "collides"
+    assert distance(arm, one.links, one.positions) <= 1e-6
 
 
 def test_a_contact_is_where_forward_kinematics_puts_the_links(arm):

@@ -223,6 +223,7 @@ START_TEST(each_sin_of_a_plugin_is_refused_by_its_name)
     assert_alone_refused("bad_name", "a type's name is 'bad name!'");
     assert_alone_refused("bad_parameter_table",
                          "bad_parameter_table: radius: default_value: got -1, must be > 0");
+    assert_alone_refused("bad_parts", "bad_parts: parts name '$ofset', which must be a parameter");
     assert_alone_refused("half_bad", "half_bad: create is NULL");
     assert_alone_refused("undefined_symbol", "nobody_defines_this");
 }

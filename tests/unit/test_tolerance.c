@@ -185,9 +185,30 @@ START_TEST(a_builder_puts_its_parts_in_its_place_too)
     imp_builder_free(b);
     ck_assert_msg(scene != NULL, "%s", error.text);
     imp_scene_parameter_info info;
-    ck_assert_uint_eq(imp_scene_parameter_count(scene), 6);
+    ck_assert_uint_eq(imp_scene_parameter_count(scene), 3); /* none of the offset, which is 0 */
     ck_assert(imp_scene_parameter(scene, 2, &info));
     ck_assert_double_eq(info.lo, -0.25);
+    imp_scene_free(scene);
+}
+END_TEST
+
+/* Values that leave out what is 0, and how many parameters are left. */
+static const struct left {
+    double offset, angle;
+    size_t parameters;
+} left[] = {{0, 0, 0}, {0.25, 0, 3}, {0, 0.25, 3}, {0.25, 0.25, 6}};
+
+START_TEST(what_is_0_takes_no_parameters)
+{
+    const tolerance of = {left[_i].angle, left[_i].offset, {1, 2, 3}};
+    const size_t count = left[_i].parameters;
+    imp_scene *scene = point_within(&of, of.center);
+    imp_scene_parameter_info info;
+    ck_assert_uint_eq(imp_scene_parameter_count(scene), count);
+    for (size_t k = 0; k < count; ++k) {
+        ck_assert(imp_scene_parameter(scene, k, &info));
+        ck_assert_double_eq(info.hi, 0.25);
+    }
     imp_scene_free(scene);
 }
 END_TEST
@@ -222,6 +243,7 @@ int main(void)
                                 {no_displacement_is_nearer_than_what_is_proved, 1},
                                 {its_parameters_have_its_name, 1},
                                 {a_builder_puts_its_parts_in_its_place_too, 1},
+                                {what_is_0_takes_no_parameters, sizeof left / sizeof *left},
                                 {what_is_wrong_with_it_is_refused, sizeof wrong / sizeof *wrong}};
     return suite_main_loops("tolerance", loops, sizeof loops / sizeof *loops, open_registry,
                             close_registry);

@@ -10,9 +10,11 @@ from typing import Dict, List, Literal, Mapping, Optional, Sequence, Tuple
 
 from .. import _document as document
 from .._assembly import Stage, scene_of
-from .._query import Settings
+from .._handle import Handle
+from .._query import Settings, Wanted
 from .._survey import State, Survey
 from ..results import Result, result_of
+from . import _seek
 from ._course import Following, maps_of_hinge
 from ._shapes import Pose
 from ._urdf import Joint, Model
@@ -24,6 +26,9 @@ _FREE_JOINTS = 2  # of a pair; with more, fixing one makes the search little eas
 _PARTS = 32  # of the limits of a joint
 _PART_PAIRS = 300_000  # of regions, for one part; smaller ones may be easier
 
+_LOOK_AFTER = 25  # looks at a survey (of 4 boxes) before positions that touch are sought by descent
+_GAMMA = 1e-6  # what is no farther apart touches
+
 _TURN = math.nextafter(math.pi, 4)  # half a turn, rounded up: a joint without limits goes all around
 
 
@@ -31,11 +36,11 @@ _TURN = math.nextafter(math.pi, 4)  # half a turn, rounded up: a joint without l
 class LinkPair:
     """Two links over all positions of the joints between them, which `joints` names with their limits
     (from -pi to pi where there are none). "never": proved never to touch; "collides": they touch where the
-    joints are at `positions`, and elsewhere perhaps; "undecided": a limit came, or `why` says what stood
-    in the way. `proved` is the share of all positions that is proved free. `reason` is the SRDF file's for
-    not testing the pair, "" if it gives none; None: it has the pair tested. `free` tells of a pair that
-    collides where it does not: ranges of one joint, wherever the other is, proved and cut at 32nds of its
-    limits; None: more than two joints are between the links."""
+    joints are at `positions`, found by the proof or by descent, and elsewhere perhaps; "undecided": a limit
+    came, or `why` says what stood in the way. `proved` is the share of all positions that is proved free.
+    `reason` is the SRDF file's for not testing the pair, "" if it gives none; None: it has the pair tested.
+    `free` tells of a pair that collides where it does not: ranges of one joint, wherever the other is, proved
+    and cut at 32nds of its limits; None: more than two joints are between the links."""
 
     links: Tuple[str, str]
     reason: Optional[str]
@@ -126,7 +131,7 @@ def check_pair(links: Links, pair: Tuple[str, str], reason: Optional[str], limit
     if unlimited is not None:
         return LinkPair(pair, reason, "undecided", {}, None, 0.0, 0, 0.0, f"joint {unlimited} has no limits")
     started, ranges = time.monotonic(), links.ranges([*up_a, *up_b])
-    state, found = _ask(links, pair, ranges, limits)
+    state, found = _ask(links, pair, ranges, limits, seeks=True)
     verdict = _verdict(found, state.values)
     free = None
     if verdict == "collides" and state.values is not None and 0 < len(ranges) <= _FREE_JOINTS:
@@ -135,11 +140,37 @@ def check_pair(links: Links, pair: Tuple[str, str], reason: Optional[str], limit
                     time.monotonic() - started, found.reason if verdict == "undecided" else None, free)
 
 
-def _ask(links: Links, pair: Tuple[str, str], ranges: Ranges, limits: Limits) -> Tuple[State, Result]:
+class _Seeker:
+    """Looks for positions that touch once a survey has taken some boxes; it is over when some are found."""
+
+    def __init__(self, scene: Handle, ranges: Ranges, settings: Settings):
+        self._scene, self._ranges, self._settings, self._looks = scene, ranges, settings, 0
+        self.found: Optional[Dict[str, float]] = None
+
+    def __call__(self) -> bool:
+        self._looks += 1
+        if self._looks == _LOOK_AFTER:
+            gamma = _GAMMA if self._settings.gamma is None else self._settings.gamma
+            self.found = _seek.touching(self._ranges, self._distance, gamma)
+        return self.found is not None
+
+    def _distance(self, positions: Sequence[float]) -> float:
+        """An upper bound at these positions, of a rough bracket."""
+        with Survey(self._scene, self._settings, Wanted(tolerance=0.1),
+                    ranges=[(x, x) for x in positions]) as survey:
+            survey.run()
+            return survey.clearance().upper
+
+
+def _ask(links: Links, pair: Tuple[str, str], ranges: Ranges, limits: Limits,
+         seeks: bool = False) -> Tuple[State, Result]:
     scene = scene_of(links.scene(pair, ranges), f"{pair[0]} and {pair[1]}")
     settings = Settings(gamma=limits.gamma, max_seconds=limits.max_seconds, max_pairs=limits.max_pairs)
     with Survey(scene._handle, settings, any=True) as survey:
-        state = survey.run()
+        seeker = _Seeker(scene._handle, ranges, settings)
+        state = survey.run(seeker if seeks else lambda: False)
+        if state.values is None and seeker.found is not None:
+            state = state._replace(values=seeker.found)
         return state, result_of(scene.bodies, survey.result())
 
 
