@@ -236,6 +236,7 @@ tools_simulate = \
     tools/simulate/mover.c tools/simulate/mover.h \
     tools/simulate/closest.c tools/simulate/closest.h \
     tools/simulate/nesting.c tools/simulate/nesting.h \
+    tools/simulate/carried.c tools/simulate/carried.h \
     tools/simulate/outline.c tools/simulate/outline.h \
     tools/simulate/patches.c tools/simulate/patches.h \
     tools/simulate/placed.c tools/simulate/placed.h \

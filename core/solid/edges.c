@@ -157,6 +157,11 @@ static double distance_near(const edges *e, size_t j, int n, vec3 x, double *whe
     return refine(e, j, a, b, x, where);
 }
 
+/* Between its ends, an edge runs along another where their directions, chords of two steps, differ
+ * by less than 60 degrees. Else the other only ends there, as where two halves of a face meet at
+ * the edge of a whole one. */
+#define LEAST_COSINE 0.5
+
 int edge_passes(const edges *e, size_t i, int k, size_t j)
 {
     const vec3 x = edge_points(e, i)[k];
@@ -167,7 +172,11 @@ int edge_passes(const edges *e, size_t i, int k, size_t j)
         n = nearest_number(e, j, x, n);
         if (n < 0 || !(distance_near(e, j, n, x, &where) <= e->slack)) return 0;
     }
-    return vec3_dot(direction_at(e, i, k), direction_at(e, j, where)) >= 0 ? 1 : -1;
+    const vec3 along = direction_at(e, i, k), other = direction_at(e, j, where);
+    const double product = vec3_dot(along, other);
+    const bool is_inner = k > 0 && k < e->steps;
+    if (is_inner && fabs(product) < LEAST_COSINE * vec3_norm(along) * vec3_norm(other)) return 0;
+    return product >= 0 ? 1 : -1;
 }
 
 /* --- Matching all ----------------------------------------------------------------------------- */

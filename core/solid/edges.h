@@ -44,7 +44,8 @@ bool edge_is_point(const edges *e, size_t i);
 int edge_compare(const edges *e, size_t i, size_t j);
 
 /* Finds out whether point k of edge i lies on edge j. 1: it does, and the two run in the same
- * direction there; -1: in opposite directions; 0: it does not. Evaluates the patch. */
+ * direction there; -1: in opposite directions; 0: it does not, or, between the ends of edge i, the
+ * two lead in other directions. Evaluates the patch. */
 int edge_passes(const edges *e, size_t i, int k, size_t j);
 
 /* Sets partner[i], for each edge i that is no point, to the one other edge along the same seam.

@@ -148,9 +148,11 @@ static imp_code refuse(const solid *s, vec3 x, imp_error *error)
     case IMP_CLOSURE_UNBOUNDED:
     case IMP_CLOSURE_EMPTY:
         return error_set(error, IMP_ERROR_SCENE,
-                         "body '%.80s' is solid, but its surfaces %s; leave out \"solid\"", name,
-                         c->verdict == IMP_CLOSURE_EMPTY ? "are a single point"
-                                                         : "are not bounded");
+                         "body '%.80s' is solid, but its surfaces %s; leave out \"solid\"%s", name,
+                         c->verdict == IMP_CLOSURE_EMPTY
+                             ? "are a single point"
+                             : "reach farther than 1e50, too far to tell what they bound",
+                         c->verdict == IMP_CLOSURE_EMPTY ? "" : ", or choose other units");
     case IMP_CLOSURE_CLOSED:
     case IMP_CLOSURE_STOPPED:
         break;

@@ -43,6 +43,29 @@ START_TEST(bodies_that_are_not_closed_are_refused_with_the_place_and_the_number)
 }
 END_TEST
 
+/* The face at the top is whole; the others are halves, which meet at the middles of its edges. */
+START_TEST(halves_of_faces_meet_at_the_edge_of_a_whole_one)
+{
+    static const char *const face[][3] = {
+        {"-1,-1,1", "2,0,0", "0,2,0"}, {"-1,-1,-1", "0,2,0", "1,0,0"},
+        {"0,-1,-1", "0,2,0", "1,0,0"}, {"-1,-1,-1", "1,0,0", "0,0,2"},
+        {"0,-1,-1", "1,0,0", "0,0,2"}, {"-1,1,-1", "0,0,2", "1,0,0"},
+        {"0,1,-1", "0,0,2", "1,0,0"},  {"-1,-1,-1", "0,0,2", "0,1,0"},
+        {"-1,0,-1", "0,0,2", "0,1,0"}, {"1,-1,-1", "0,2,0", "0,0,1"},
+        {"1,-1,0", "0,2,0", "0,0,1"}};
+    char box[2000] = "";
+    for (size_t k = 0; k < sizeof face / sizeof *face; ++k) {
+        const size_t used = strlen(box);
+        snprintf(box + used, sizeof box - used,
+                 "%s{\"type\": \"plane\", \"origin\": [%s], \"edge_u\": [%s], \"edge_v\": "
+                 "[%s]}",
+                 k > 0 ? ", " : "", face[k][0], face[k][1], face[k][2]);
+    }
+    check_inside(with_ball(box, (const double[3]){0.5, 0.25, 0.125}, 0.01).text);
+    check_clear(with_ball(box, (const double[3]){0.5, 0.25, 1.02}, 0.01).text);
+}
+END_TEST
+
 START_TEST(gaps_up_to_gamma_are_closed)
 {
     static const char box[] =
@@ -185,6 +208,7 @@ int main(void)
 {
     const TTest *const tests[] = {
         bodies_that_are_not_closed_are_refused_with_the_place_and_the_number,
+        halves_of_faces_meet_at_the_edge_of_a_whole_one,
         gaps_up_to_gamma_are_closed,
         what_a_thin_wall_holds_is_not_in_it,
         of_shells_that_touch_nothing_is_claimed,

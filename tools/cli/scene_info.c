@@ -72,6 +72,7 @@ static void print_body(const imp_scene *scene, size_t body, const imp_closure *c
            surfaces == 1 ? "" : "s");
     if (pieces != surfaces) printf(" of %zu pieces", pieces);
     printf(", %s%s", imp_scene_is_solid(scene, body) ? "solid, " : "", verdict_name(c->verdict));
+    if (c->verdict == IMP_CLOSURE_UNBOUNDED) printf(": it reaches farther than 1e50");
     if (c->shells > 1) printf(" (%zu shells)", c->shells);
     if (has_place(c))
         printf(" at (%g, %g, %g), an edge of surface %zu, piece %zu", c->where[0], c->where[1],

@@ -41,7 +41,10 @@ static exit_status refuse_shape(value_place at, shape_verdict verdict, vec where
     case SHAPE_FLAT:
         return value_refuse(at, "found surfaces that enclose no volume to integrate; %s", cure);
     case SHAPE_UNBOUNDED:
-        return value_refuse(at, "found a surface that is not bounded; %s", cure);
+        return value_refuse(at,
+                            "found points farther than 1e50 from the origin, too far to integrate; "
+                            "choose other units, or %s",
+                            cure);
     case SHAPE_NO_MEMORY:
         return complain_of_memory("simulate");
     case SHAPE_FAULT:

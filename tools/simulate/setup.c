@@ -14,6 +14,7 @@
 #include "tools/cli/reading_limit.h"
 #include "tools/cli/verbs.h"
 #include "tools/simulate/actor.h"
+#include "tools/simulate/carried.h"
 #include "tools/simulate/values.h"
 
 static const char speaker[] = "simulate";
@@ -58,6 +59,7 @@ static exit_status read_actors(setup *s)
         moves |= s->actors[i].moves;
         if (!outline_read(&s->actors[i].outline, s->still, &s->options, &s->limits, i))
             return complain_of_memory(speaker);
+        if (status == EXIT_ANSWERED) status = carried_check(s, i);
     }
     if (status == EXIT_ANSWERED && !moves)
         return complain(EXIT_DATA, speaker,
