@@ -235,6 +235,11 @@ kept() {
     printf 'a line\n' >notes
     kept notes 'notes, line 1: not the answer to that scene' \
         "$IMPINGE" batch scenes.jsonl --resume notes
+    # A zero byte is a place that was never written only where there are results.
+    printf '\177ELF\2\1\1\0\0\0\n' >notes
+    kept notes 'notes: its last line is no answer' "$IMPINGE" batch scenes.jsonl --resume notes
+    printf '\0\0\n' >notes
+    kept notes 'notes: its last line is no answer' "$IMPINGE" batch scenes.jsonl --resume notes
     [ "$(echo notes*)" = notes ]
 }
 

@@ -25,14 +25,14 @@ static exit_status fail(const batch_resume *resume, const char *what)
 
 /* --- Opening ---------------------------------------------------------------------------------- */
 
-/* Whether the line is an incomplete result: cut off, or with a place that was never written. */
-static bool is_torn_answer(const input_text *line)
+/* Whether the line is an incomplete result: cut off, or with a place that was never written. A line
+ * that begins with such a place may be anything, unless the file is known for results. */
+static bool is_torn_answer(const batch_resume *resume, const input_text *line)
 {
     static const char beginning[] = "{\"id\":";
-    const size_t most = sizeof beginning - 1;
-    const size_t length = line->length < most ? line->length : most;
-    return memchr(line->text, '\0', line->length) != NULL ||
-           memcmp(line->text, beginning, length) == 0;
+    const size_t most = sizeof beginning - 1, length = strnlen(line->text, line->length);
+    if (length == 0 && line->length > 0) return resume->record.is_known;
+    return memcmp(line->text, beginning, length < most ? length : most) == 0;
 }
 
 static bool is_torn(const input_text *line)
@@ -49,7 +49,7 @@ static exit_status count_answers(batch_resume *resume)
         if (is_torn(&resume->line)) {
             rewind(resume->file);
             resume->has_rest = resume->line.length > 0;
-            if (is_torn_answer(&resume->line)) return EXIT_ANSWERED;
+            if (is_torn_answer(resume, &resume->line)) return EXIT_ANSWERED;
             return fail(resume, "its last line is no answer of a batch; name another file");
         }
         resume->end += (off_t)resume->line.length;

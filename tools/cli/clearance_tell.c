@@ -65,7 +65,9 @@ static exit_status print(const measuring *m, const imp_clearance *all)
     if (m->each && m->table.count > 0) clearance_print_pairs(&m->table);
     if (m->beyond > 0)
         printf("never within %.10g: %zu pairs of bodies\n", m->asked.within, m->beyond);
-    if (m->not_examined > 0) printf("not examined: %zu pairs of bodies\n", m->not_examined);
+    if (m->not_examined > 0)
+        printf("not examined: %zu pairs of bodies%s\n", m->not_examined,
+               m->asked.within > 0 ? "" : "; --within D only counts those that stay farther apart");
     return output_flush(speaker);
 }
 

@@ -31,7 +31,7 @@ typedef struct open_part {
 
 typedef struct parts_run_state {
     const parts_plan *plan;
-    open_part *open;
+    open_part *open; /* NULL: each part has one turn, and none is listed */
     size_t count;    /* of them */
     size_t done;     /* changed by finish_turn only */
     imp_error error; /* the first; begins as a success */
@@ -39,6 +39,7 @@ typedef struct parts_run_state {
 
 typedef struct turn {
     open_part *part;
+    open_part only; /* of a part with one turn, which is not listed */
     imp_error error;
 } turn;
 
@@ -50,15 +51,14 @@ static imp_code take_turn(const parts_plan *plan, open_part *part, imp_error *er
     if (part->query == NULL) part->query = imp_query_part(plan->whole, part->index, error);
     if (part->query == NULL) return error->code;
     if (interrupt_came()) imp_query_cancel(part->query);
-    const imp_code code =
-        imp_query_step(part->query, plan->advance != NULL ? PAIRS_A_TURN : 0, error);
-    if (code != IMP_SUCCESS) return code;
-    if (plan->advance != NULL && imp_query_result(part->query).reason == IMP_REASON_RUNNING)
-        return IMP_SUCCESS;
-    plan->take(plan->context, part->index, part->query);
+    const bool is_only = plan->advance == NULL;
+    const imp_code code = imp_query_step(part->query, is_only ? 0 : PAIRS_A_TURN, error);
+    if (!is_only && code != IMP_SUCCESS) return code;
+    if (!is_only && imp_query_result(part->query).reason == IMP_REASON_RUNNING) return IMP_SUCCESS;
+    if (code == IMP_SUCCESS) plan->take(plan->context, part->index, part->query);
     imp_query_free(part->query);
     part->query = NULL;
-    return IMP_SUCCESS;
+    return code;
 }
 
 static void work_on_turn(void *context, void *of)
@@ -94,7 +94,8 @@ static imp_code take_turns(parts_run_state *run)
     if (pool == NULL) return run->error.code = IMP_ERROR_MEMORY;
     turn *item;
     for (size_t k = 0; k < run->count && (item = ordered_pool_next(pool)) != NULL; ++k) {
-        item->part = &run->open[k];
+        item->only = (open_part){.index = k};
+        item->part = run->open != NULL ? &run->open[k] : &item->only;
         ordered_pool_submit(pool);
     }
     ordered_pool_join(pool);
@@ -117,19 +118,27 @@ static double close_parts(parts_run_state *run)
     return t_lower;
 }
 
+/* Solves all parts in turns. */
+static void run_in_turns(parts_run_state *run)
+{
+    const parts_plan *plan = run->plan;
+    run->open = calloc(plan->count + 1, sizeof *run->open);
+    if (run->open == NULL) run->error.code = IMP_ERROR_MEMORY;
+    for (size_t k = 0; run->open != NULL && k < run->count; ++k) run->open[k].index = k;
+    while (run->open != NULL && run->count > 0 && take_turns(run) == IMP_SUCCESS)
+        if (!plan->advance(plan->context, close_parts(run))) break;
+    for (size_t k = 0; run->open != NULL && k < run->count; ++k) imp_query_free(run->open[k].query);
+    free(run->open);
+}
+
 imp_code parts_run(const parts_plan *plan, imp_error *error)
 {
     parts_run_state run = {.plan = plan, .count = plan->count, .error = {.code = IMP_SUCCESS}};
-    run.open = calloc(plan->count + 1, sizeof *run.open);
-    if (run.open == NULL) return error->code = IMP_ERROR_MEMORY;
-    for (size_t k = 0; k < run.count; ++k) run.open[k].index = k;
     progress_count_from(0, plan->count, "pairs of bodies");
-    while (run.count > 0 && take_turns(&run) == IMP_SUCCESS) {
-        const double t_lower = close_parts(&run);
-        if (plan->advance != NULL && !plan->advance(plan->context, t_lower)) break;
-    }
-    for (size_t k = 0; k < run.count; ++k) imp_query_free(run.open[k].query);
-    free(run.open);
+    if (plan->advance != NULL)
+        run_in_turns(&run);
+    else if (plan->count > 0)
+        take_turns(&run); /* one each */
     progress_wipe();
     if (run.error.code != IMP_SUCCESS) *error = run.error;
     return run.error.code;

@@ -8,8 +8,8 @@
 
 enum { PATCHES = 4, POINTS = 3 * PATCHES };
 
-/* Of the size, by how much distances of points may change in rigid motion, by rounding; and how far
- * points move at least. */
+/* Parts of the size: rounding in rigid motion changes distances of points by less than the first;
+ * who moves less than the second stays. */
 static const double rigid_slack = 1e-9, least_motion = 1e-6;
 
 /* Evaluates points of up to PATCHES patches spread over the body. False: it has none then. */
