@@ -92,6 +92,7 @@ typedef struct piece_search {
     double gamma_clear;
     time_window times;
     surface_course course[2]; /* of the other side, as this one sees it */
+    piece_corners whole[2];   /* of all pieces, where find_bare took them; else none */
 } piece_search;
 
 /* By the planes of a side's pieces, then by what its type knows of it as a whole. */
@@ -120,6 +121,12 @@ static imp_code cut_side(const piece_search *q, const piece_corners corners[2], 
     return IMP_SUCCESS;
 }
 
+/* Whether the corners of all pieces, and no more than `most`, are there already. */
+static bool has_corners(const piece_search *q, int side, size_t most)
+{
+    return q->whole[side].of != NULL && q->whole[side].count <= most;
+}
+
 /* Cuts by each side with at most `most` pieces of either. */
 static imp_code cut_with(const piece_search *q, size_t most, bool sides[2], distance_outcome *seen,
                          imp_error *error)
@@ -127,9 +134,13 @@ static imp_code cut_with(const piece_search *q, size_t most, bool sides[2], dist
     piece_corners corners[2] = {{.of = NULL}, {.of = NULL}};
     bool known = true;
     imp_code code = IMP_SUCCESS;
-    for (int side = 0; side < 2 && code == IMP_SUCCESS && known; ++side)
-        code = piece_corners_take(q->of->root[side]->surface, &q->times, most, &corners[side],
-                                  &known, error);
+    for (int side = 0; side < 2 && code == IMP_SUCCESS && known; ++side) {
+        if (has_corners(q, side, most))
+            corners[side] = q->whole[side];
+        else
+            code = piece_corners_take(q->of->root[side]->surface, &q->times, most, &corners[side],
+                                      &known, error);
+    }
     for (int side = 0; side < 2 && code == IMP_SUCCESS; ++side) {
         piece_view view;
         sides[side] = sides[side] && known && q->course[side].is_known;
@@ -145,25 +156,26 @@ static imp_code cut_with(const piece_search *q, size_t most, bool sides[2], dist
         seen->is_apart = view.is_apart;
         if (!view.is_apart) seen->left = view.left;
     }
-    for (int side = 0; side < 2; ++side) piece_corners_clear(&corners[side]);
+    for (int side = 0; side < 2; ++side)
+        if (!has_corners(q, side, most)) piece_corners_clear(&corners[side]);
     return code;
 }
 
-/* Models of a side's points before its last maps. */
-static imp_code find_bare(const piece_search *q, int side, imp_model bare[3], bool *known,
+/* Models of a side's points before its last maps. Corners that it needs are kept. */
+static imp_code find_bare(piece_search *q, int side, imp_model bare[3], bool *known,
                           imp_error *error)
 {
     const node *root = q->of->root[side];
-    piece_corners corners;
+    piece_corners *corners = &q->whole[side];
     if (surface_inner_maps(root->surface) == 0) {
         *known = node_bare_models(root, bare);
         return IMP_SUCCESS;
     }
     const imp_code code =
-        piece_corners_take(root->surface, &q->times, PIECES_MOST, &corners, known, error);
-    const double most = sum_upper(corners.reach * (1 + 0x1p-40), corners.slack);
+        piece_corners_take(root->surface, &q->times, PIECES_MOST, corners, known, error);
+    const double most = sum_upper(corners->reach * (1 + 0x1p-40), corners->slack);
     for (int i = 0; i < 3; ++i) bare[i] = imp_between(-most, most);
-    piece_corners_clear(&corners);
+    if (!*known) piece_corners_clear(corners);
     return code;
 }
 
@@ -204,25 +216,32 @@ static imp_code find_courses(piece_search *q, imp_error *error)
 /* Some pieces in which a side shows nothing spare it all of them. */
 enum { PIECES_FIRST = 12 };
 
+static imp_code cut_sides(piece_search *q, size_t most, distance_outcome *seen, imp_error *error)
+{
+    bool sides[2] = {true, true};
+    imp_code code = find_courses(q, error);
+    if (!q->course[0].is_known && !q->course[1].is_known) return code;
+    if (code == IMP_SUCCESS && most > PIECES_FIRST) {
+        distance_outcome some = *seen;
+        code = cut_with(q, PIECES_FIRST, sides, &some, error);
+    }
+    if (code != IMP_SUCCESS || (!sides[0] && !sides[1])) return code;
+    return cut_with(q, most, sides, seen, error);
+}
+
 imp_code piece_sides_cut(const distance_sides *of, unsigned search, double gamma_clear,
                          distance_outcome *seen, imp_error *error)
 {
     const surface *const s[2] = {of->root[0]->surface, of->root[1]->surface};
     piece_search q = {
         .of = of, .gamma_clear = gamma_clear, .times = pair_times(of->root[0], of->root[1])};
-    bool sides[2] = {true, true};
     size_t most = 1;
     if ((of->slips->searches & search) != 0 || !of->takes_orbits) return IMP_SUCCESS;
     of->slips->searches = (unsigned char)(of->slips->searches | search);
     for (int side = 0; side < 2; ++side)
         if (surface_piece_count(s[side]) > most) most = surface_piece_count(s[side]);
     if (most == 1 || most > PIECES_MOST || surface_common_maps(s[0], s[1]) > 0) return IMP_SUCCESS;
-    imp_code code = find_courses(&q, error);
-    if (!q.course[0].is_known && !q.course[1].is_known) return code;
-    if (code == IMP_SUCCESS && most > PIECES_FIRST) {
-        distance_outcome some = *seen;
-        code = cut_with(&q, PIECES_FIRST, sides, &some, error);
-    }
-    if (code != IMP_SUCCESS || (!sides[0] && !sides[1])) return code;
-    return cut_with(&q, most, sides, seen, error);
+    const imp_code code = cut_sides(&q, most, seen, error);
+    for (int side = 0; side < 2; ++side) piece_corners_clear(&q.whole[side]);
+    return code;
 }

@@ -238,10 +238,13 @@ bool instance_set_note(shared_instance *p, uint64_t count, const char *text)
 
 /* --- Descriptions ----------------------------------------------------------------------------- */
 
+/* Each isolated instance has a type of its own, with the name of the type it stands for. No two
+ * types of a registry share the text of a name. */
 bool instance_is_equal_map(const shared_instance *x, const shared_instance *y)
 {
     const instance_description *of_x = x->description, *of_y = y->description;
-    return x->map == y->map && of_x != NULL && of_y != NULL && of_x->size == of_y->size &&
+    const bool same_type = x->map != NULL && y->map != NULL && x->map->name == y->map->name;
+    return same_type && of_x != NULL && of_y != NULL && of_x->size == of_y->size &&
            memcmp(of_x->bytes, of_y->bytes, of_x->size) == 0;
 }
 

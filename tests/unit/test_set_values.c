@@ -248,7 +248,7 @@ START_TEST(trees_of_other_surfaces_stay)
 END_TEST
 
 /* Two balls that turn together, near each other: in the frame that they share they are at rest. */
-START_TEST(maps_that_become_equal_are_one_map)
+static void check_that_equal_maps_are_one(void)
 {
     static const char *const pair[2] = {
         "sphere radius=0.5 ! rotate axis=0,0,1 rate=1",
@@ -274,6 +274,15 @@ START_TEST(maps_that_become_equal_are_one_map)
                       0);
     imp_scene_free(scene);
     imp_scene_free(built);
+}
+
+START_TEST(maps_that_become_equal_are_one_map) { check_that_equal_maps_are_one(); }
+END_TEST
+
+START_TEST(isolated_maps_that_become_equal_are_one_map)
+{
+    good(imp_registry_isolate(registry, NULL, &error));
+    check_that_equal_maps_are_one();
 }
 END_TEST
 
@@ -466,6 +475,7 @@ int main(void)
                                   each_number_can_be_changed_alone,
                                   trees_of_other_surfaces_stay,
                                   maps_that_become_equal_are_one_map,
+                                  isolated_maps_that_become_equal_are_one_map,
                                   times_to_examine_follow_tables,
                                   remarks_are_those_of_the_values_there_are,
                                   a_scene_in_use_is_not_changed,
