@@ -7,6 +7,8 @@ import sys
 
 from impinge import robot
 
+if len(sys.argv) < 2:
+    sys.exit(__doc__)
 arm = robot.load(sys.argv[1])
 board = {"type": "box", "size": [0.3, 0.8, 0.02], "center": [0.55, 0, 0.75]}
 shelf = {"name": "shelf", "surfaces": [board]}

@@ -176,3 +176,11 @@ def test_it_is_a_program(tmp_path):
     done = subprocess.run([sys.executable, "-m", "impinge.robot", str(ARM), "--goal", "lift=0.1"], capture_output=True,
                           text=True)
     assert done.returncode == 0 and done.stdout.startswith("clear"), done
+
+
+def test_it_ends_quietly_where_nobody_reads_on():
+    asked = subprocess.Popen([sys.executable, "-m", "impinge.robot", str(ARM), "--goal", "lift=0.1"],
+                             stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True)
+    asked.stdout.close()
+    assert asked.stderr.read() == "" and asked.wait() == -13  # SIGPIPE
+    asked.stderr.close()

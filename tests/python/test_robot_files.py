@@ -36,7 +36,7 @@ LIMIT = '<limit lower="-1" upper="1"/>'
     (A + B + JOINT.format("j", "continuous", "a", "b", '<axis xyz="nan 0 0"/>'), "xyz: got 'nan 0 0'"),
     (A + B + JOINT.format("j", "continuous", "a", "b", '<origin xyz="0 0 inf"/>'), "xyz: got '0 0 inf'"),
     (A + B + JOINT.format("j", "continuous", "a", "b", '<mimic joint="x"/>'), "mimic joint 'x', which is not"),
-    (A + B + JOINT.format("j", "continuous", "a", "b", '<mimic joint="j"/>'), "follows another itself"),
+    (A + B + JOINT.format("j", "continuous", "a", "b", '<mimic joint="j"/>'), "'j': follows itself; leave out"),
     (A + B + C + D + JOINT.format("i", "continuous", "a", "b", "")
      + JOINT.format("j", "continuous", "b", "c", '<mimic joint="i"/>')
      + JOINT.format("k", "continuous", "c", "d", '<mimic joint="j"/>'),

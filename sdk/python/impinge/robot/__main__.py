@@ -5,6 +5,7 @@
 
 import argparse
 import json
+import signal
 import sys
 from typing import Any, Dict, List, NoReturn, Optional, Tuple
 
@@ -277,4 +278,5 @@ def main(line: List[str]) -> int:
 
 
 if __name__ == "__main__":
+    signal.signal(signal.SIGPIPE, signal.SIG_DFL)  # where `head` has heard enough, it ends without a word
     sys.exit(main(sys.argv[1:]))

@@ -263,6 +263,8 @@ def _check_mimic(reader: _Reader, joint: Joint, joints: Mapping[str, Joint]) -> 
     where, followed = f"joint {joint.name!r}", joints.get(joint.mimic)
     if followed is None:
         raise reader.fail(where, f"got the mimic joint {joint.mimic!r}, which is not there")
+    if followed is joint:
+        raise reader.fail(where, "follows itself; leave out <mimic>")
     if followed.mimic is not None:
         raise reader.fail(where, f"got the mimic joint {joint.mimic!r}, which follows another itself; let it "
                                  f"follow {followed.mimic!r}, with the product of the multipliers")
