@@ -150,7 +150,7 @@ counts() { jq 'del(.. | .seconds?)' <<<"$output"; }
     json '[.sets[0].cases[].methods[] | select(.goal.pairs > 500).goal.outcome] | unique == ["not measured"]'
     json 'all(.sets[0].cases[].methods[]; .goal.pairs > 500 or (.goal.outcome | startswith("reached")) ==
         (.pairs.max <= .goal.pairs and .reference.agreed == 1))'
-    json '.sets[0].findings | .reached >= 100 and .goals > .reached'
+    json '.sets[0].findings | .reached >= 100 and .goals >= .reached'
     run -0 "$IMPINGE" bench everyday --repeat 1 --max-pairs 100
     [[ $output == *'  contact  '*'goal 100'*' goals are reached'*' goals are marked as open'* ]]
 }
