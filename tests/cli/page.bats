@@ -42,6 +42,20 @@ data() { sed -n 's/.*<script type="application\/json" id="data">\(.*\)<\/script>
         $all.distance.upper[.] - $all.distance.lower[.] <= 0.002 * $d + 1e-3))'
 }
 
+@test "a page that sweeps a parameter names it in the place of t" {
+    needs_three
+    cat >swept.json <<'END'
+{"time": [0,0], "parameters": {"lift": [0,1]}, "bodies": [
+  {"name": "arm", "surfaces": [{"type": "sphere", "radius": 0.3}],
+   "maps": [{"type": "translate", "velocity": [2,0,0], "clock": "lift"}]},
+  {"name": "rest", "surfaces": [{"type": "sphere", "radius": 0.3, "center": [1.5,0,0]}]}]}
+END
+    run -0 --separate-stderr "$IMPINGE" view swept.json --sweep lift --tolerance 0.1 --frames 3 -o page.html
+    output=$(data)
+    json '.axis == "lift" and (.told | startswith("First contact at lift = 0.4499"))'
+    grep -q "data.axis + ' = '" page.html
+}
+
 @test "a page of a result, which was not searched for again, and of one moment" {
     needs_three
     "$IMPINGE" pair "$left" "$right" --json | "$IMPINGE" view - --tolerance 0.1 --frames 3 -o page.html

@@ -20,6 +20,7 @@ typedef struct html_page {
     const film *film;
     const event_list *events;
     const char *title;
+    const char *axis;    /* what moments are of (subject.h) */
     gap_profile gap;     /* in slices of time; none of them: it is not shown */
     gap_profile moments; /* at the film's frames; none: it is not shown */
     regions regions;     /* none: they are not shown */

@@ -251,28 +251,30 @@ static json_t *gap_json(const gap_profile *gap, size_t times)
 }
 
 /* Returns the answer in words. */
-static json_t *told_json(const stage *s)
+static json_t *told_json(const html_page *page)
 {
+    const stage *s = &page->film->stage;
+    const char *axis = page->axis;
     char text[700];
     const stage_contact *c = &s->contact;
     const stage_spot *spot = &s->spot;
     size_t used = 0;
     text[0] = '\0';
     if (c->is_known && c->verdict == IMP_VERDICT_CONTACT)
-        snprintf(text, sizeof text, "First contact at t = %.7g", c->t);
+        snprintf(text, sizeof text, "First contact at %.64s = %.7g", axis, c->t);
     else if (c->is_known && c->verdict == IMP_VERDICT_CLEAR)
-        snprintf(text, sizeof text, "No contact from t = %.7g to %.7g, proved. ", s->t_start,
-                 s->t_end);
+        snprintf(text, sizeof text, "No contact from %.64s = %.7g to %.7g, proved. ", axis,
+                 s->t_start, s->t_end);
     else if (c->is_known)
-        snprintf(text, sizeof text, "No contact before t = %.7g, proved; not decided after. ",
-                 c->t);
+        snprintf(text, sizeof text, "No contact before %.64s = %.7g, proved; not decided after. ",
+                 axis, c->t);
     used = strlen(text);
     if (spot->is_known)
         snprintf(text + used, sizeof text - used,
                  spot->is_contact ? ": %.100s and %.100s; proved that none is earlier. "
-                                  : "Nearest: %.100s and %.100s, %.4g apart at t = %.7g. ",
+                                  : "Nearest: %.100s and %.100s, %.4g apart at %.64s = %.7g. ",
                  imp_scene_body_name(s->scene, spot->body[0]),
-                 imp_scene_body_name(s->scene, spot->body[1]), spot->upper, spot->t);
+                 imp_scene_body_name(s->scene, spot->body[1]), spot->upper, axis, spot->t);
     used = strlen(text);
     snprintf(text + used, sizeof text - used, "Surfaces are drawn to within %.2g.", s->error_upper);
     return output_json_text(text);
@@ -284,11 +286,12 @@ json_t *html_data(const html_page *page)
     const stage *s = &f->stage;
     const frame place = frame_of(s);
     json_t *searched = page->regions.count > 0 ? json_real(page->regions.total) : json_null();
-    return json_pack("{s:o, s:o, s:o, s:o, s:o, s:o, s:o, s:o, s:o, s:o, s:o}", "title",
+    return json_pack("{s:o, s:o, s:o, s:o, s:o, s:o, s:o, s:o, s:o, s:o, s:o, s:o}", "title",
                      output_json_text(page->title), "times", numbers_json(f->times, f->frames),
-                     "spot", spot_json(s, &place), "told", told_json(s), "bodies", bodies_json(s),
-                     "surfaces", surfaces_json(page, &place), "toward", vector_json(page->toward),
-                     "events", events_json(page, &place), "gap",
-                     gap_json(&page->gap, page->gap.count + 1), "distance",
-                     gap_json(&page->moments, page->moments.count), "searched", searched);
+                     "spot", spot_json(s, &place), "told", told_json(page), "axis",
+                     output_json_text(page->axis), "bodies", bodies_json(s), "surfaces",
+                     surfaces_json(page, &place), "toward", vector_json(page->toward), "events",
+                     events_json(page, &place), "gap", gap_json(&page->gap, page->gap.count + 1),
+                     "distance", gap_json(&page->moments, page->moments.count), "searched",
+                     searched);
 }

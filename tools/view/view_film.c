@@ -139,7 +139,8 @@ imp_code view_write_html(subject *what, const view_request *request, FILE *file,
                          imp_error *error)
 {
     film f = {.spot_frame = SIZE_MAX};
-    html_page page = {.film = &f, .events = &what->events, .title = what->title};
+    html_page page = {
+        .film = &f, .events = &what->events, .title = what->title, .axis = what->axis};
     imp_code code = subject_find_nearest(what, error);
     if (code == IMP_SUCCESS) code = film_make(what, request, &f, error);
     if (code == IMP_SUCCESS) code = look(&f, request, &page.toward, error);
