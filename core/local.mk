@@ -193,8 +193,10 @@ core_broad_phase = \
     core/broad_phase/parallel.c core/broad_phase/parallel.h
 
 core_proof = \
+    core/proof/proof_copy.c \
     core/proof/proof_file.c core/proof/proof_file.h \
     core/proof/proof_log.c core/proof/proof_log.h \
+    core/proof/proof_pairs.c core/proof/proof_pairs.h \
     core/proof/proof_tree.c core/proof/proof_tree.h
 
 core_solver = \
@@ -227,7 +229,7 @@ core_solver = \
     core/solver/query_explain.c \
     core/solver/query_internal.h \
     core/solver/query_limits.c \
-    core/solver/query_proof.c \
+    core/solver/query_proof.c core/solver/query_proof.h \
     core/solver/query_refine.c \
     core/solver/subdivision.c core/solver/subdivision.h \
     core/solver/time_of_impact.c core/solver/time_of_impact.h \
@@ -249,6 +251,8 @@ core_survey = \
     core/survey/survey_records.c \
     core/survey/survey_measure.c \
     core/survey/survey_pairs.c \
+    core/survey/survey_claim.c \
+    core/survey/survey_proof.c core/survey/survey_proof.h \
     core/survey/survey_spread.c \
     core/survey/survey_state.c
 

@@ -229,6 +229,7 @@ bats_suites = \
     tests/cli/check_proofs.bats \
     tests/cli/cli.bats \
     tests/cli/certificates.bats \
+    tests/cli/certificates_parameters.bats \
     tests/cli/clearance.bats \
     tests/cli/completion.bats \
     tests/cli/cli_batch.bats \

@@ -973,6 +973,13 @@ IMP_EXPORT imp_code imp_survey_refine(imp_survey *survey, double gamma, double g
  * error. */
 IMP_EXPORT char *imp_survey_save(const imp_survey *survey, imp_error *error);
 
+/* Like imp_query_keep_proof and imp_query_write_proof, of a survey of all bodies without `resume`;
+ * the certificate is about all values (core/CERTIFICATE.md). With `any`, a contact states its two
+ * points alone; an undecided survey, what is proved of all values until t_lower. */
+IMP_EXPORT imp_code imp_survey_keep_proof(imp_survey *survey, imp_error *error);
+IMP_EXPORT imp_code imp_survey_write_proof(const imp_survey *survey, const char *stated,
+                                           imp_proof_sink write, void *context, imp_error *error);
+
 /* Fill *result, of a survey for a contact, or *answer, of one for a clearance. Indices are those of
  * the scene. The caller sets struct_size before. */
 IMP_EXPORT imp_code imp_survey_get_result(const imp_survey *survey, imp_result *result,

@@ -17,7 +17,7 @@
 
 typedef struct file {
     const imp_scene *scene;
-    const proof_search *search;
+    const proof_source *trees;
     const proof_claim *claim;
     const proof_sink *to;
     sha256 hash;
@@ -59,26 +59,32 @@ __attribute__((format(printf, 2, 3))) static void put(file *f, const char *forma
     if (size > 0) put_bytes(f, text, (size_t)size < sizeof text ? (size_t)size : sizeof text - 1);
 }
 
-/* Writes a number as bytes of seven bits, the lowest first; all but the last byte have the high bit
- * set. */
-static void put_count(file *f, size_t n)
-{
-    for (; n >= 128; n >>= 7) put_bytes(f, &(uint8_t){(uint8_t)(n | 128)}, 1);
-    put_bytes(f, &(uint8_t){(uint8_t)n}, 1);
-}
-
 static size_t chain_of(const file *f, size_t body, size_t at) { return f->first_chain[body] + at; }
 
 /* --- What is claimed -------------------------------------------------------------------------- */
 
+static size_t parameter_count(const file *f)
+{
+    return f->claim->ranges != NULL ? scene_parameters_read(f->scene)->count : 0;
+}
+
 static void put_claim(file *f, const char *stated)
 {
     const proof_claim *c = f->claim;
-    put(f, "impinge certificate 1\nprogram impinge %s\n", PACKAGE_VERSION);
+    put(f, "impinge certificate %d\nprogram impinge %s\n", c->ranges != NULL ? 2 : 1,
+        PACKAGE_VERSION);
     if (stated != NULL) put_bytes(f, stated, strlen(stated));
     put(f, "verdict %s\napart %a\nfrom %a\nto %a\n", c->verdict, c->apart, c->from, c->to);
+    for (size_t k = 0; k < parameter_count(f); ++k) {
+        const char *name = scene_parameters_read(f->scene)->at[k].name;
+        put(f, "parameter %a %a ", c->ranges[2 * k], c->ranges[2 * k + 1]);
+        put_bytes(f, name, strlen(name)); /* of any length */
+        put(f, "\n");
+    }
     if (!c->has_points) return;
-    put(f, "within %a at %a\n", c->within, c->t);
+    put(f, "within %a at %a", c->within, c->t);
+    for (size_t k = 0; k < parameter_count(f); ++k) put(f, " %a", c->values[k]);
+    put(f, "\n");
     for (int side = 0; side < 2; ++side) {
         const proof_point *p = &c->point[side];
         put(f, "point %zu %zu %a %a\n", chain_of(f, p->body, p->surface), p->piece, p->u, p->v);
@@ -92,7 +98,9 @@ static void put_claim(file *f, const char *stated)
 static imp_code put_formula(file *f, const surface *s, size_t stage, imp_error *error)
 {
     char *text;
-    const imp_status status = surface_formula(s, stage, &text);
+    const bool is_clocked = f->claim->ranges != NULL && surface_origin(s, stage)->inner != NULL;
+    const imp_status status =
+        is_clocked ? surface_own_formula(s, stage, &text) : surface_formula(s, stage, &text);
     if (status != IMP_STATUS_OK) {
         surface_fault(s, error, ": %s", surface_status_message(s, status).text);
         return surface_set_code(status, error);
@@ -118,8 +126,10 @@ static imp_code put_stage(file *f, const surface *s, size_t stage, imp_error *er
     f->written = grown;
     f->written[f->count++] = p;
     const size_t pieces = stage == 0 ? surface_piece_count(s) : 0;
-    put(f, "%s %zu %s\n", stage == 0 ? "shape" : "map", pieces > 0 ? pieces : 1,
+    put(f, "%s %zu %s", stage == 0 ? "shape" : "map", pieces > 0 ? pieces : 1,
         stage == 0 ? p->surface->name : p->map->name);
+    if (f->claim->ranges != NULL && p->inner != NULL) put(f, " clock %zu", (size_t)p->clock + 1);
+    put(f, "\n");
     if (pieces == 0) return put_formula(f, s, stage, error);
     imp_code code = IMP_SUCCESS;
     for (size_t k = 0; k < pieces && code == IMP_SUCCESS; ++k)
@@ -168,65 +178,20 @@ static imp_code put_scene(file *f, imp_error *error)
 
 /* --- Trees ------------------------------------------------------------------------------------ */
 
-/* Writes the order of the pieces in the candidate's clusters; 0: it has none. */
-static void put_order(file *f, const candidate *c)
+/* Writes a tree for each pair of surfaces that is tested, in the order of the scene. */
+static void put_trees(file *f)
 {
-    const node *root = c != NULL ? tree_root(c->tree) : NULL;
-    const bool has_order = root != NULL && root->many != NULL;
-    put_count(f, has_order);
-    if (!has_order) return;
-    const size_t count = surface_piece_count(root->surface);
-    for (size_t k = 0; k < count; ++k) put_count(f, hierarchy_order(root->many->of)[k]);
-}
-
-/* Returns whether the search examined one moment of the pair in place of all times. */
-static bool rests(const file *f, const candidate_pair *both)
-{
-    const imp_region *r = &tree_root(both->side[0]->tree)->region;
-    return f->search->list->slip > 0 && r->lo[2] == r->hi[2];
-}
-
-static void put_pair(file *f, const proof_trees *trees, const size_t body[2], const size_t at[2],
-                     size_t index)
-{
-    const candidate_list *list = f->search->list;
-    const candidate_pair *both = index < list->pair_count ? &list->pairs[index] : NULL;
-    const surface *s[2];
-    for (int side = 0; side < 2; ++side) {
-        s[side] = scene_surface(f->scene, body[side], at[side]);
-        put_count(f, chain_of(f, body[side], at[side]));
-    }
-    put_count(f, both != NULL ? both->side[0]->left_out : surface_common_motion(s[0], s[1]));
-    for (int side = 0; side < 2; ++side)
-        if (surface_piece_count(s[side]) > 1) put_order(f, both != NULL ? both->side[side] : NULL);
-    const proof_sink own = {put_bytes, f};
-    proof_trees_write(trees, both != NULL ? (uint32_t)index : UINT32_MAX, f->claim->from,
-                      f->claim->to, both != NULL && rests(f, both), &own);
-}
-
-static bool is_pair(const candidate_pair *p, const size_t body[2], const size_t at[2])
-{
-    return p->side[0]->body == body[0] && p->side[1]->body == body[1] &&
-           p->side[0]->surface == at[0] && p->side[1]->surface == at[1];
-}
-
-/* Writes a tree for each pair of surfaces that is tested, in the order of the scene. Candidate
- * pairs are listed in that order, too; a pair of surfaces that is none of them has a tree of one
- * leaf. */
-static void put_trees(file *f, const proof_trees *trees)
-{
-    const candidate_list *list = f->search->list;
     const size_t bodies = scene_body_count(f->scene);
-    size_t next = 0, body[2], at[2];
+    const proof_sink own = {put_bytes, f};
+    size_t body[2], at[2];
     for (body[0] = 0; body[0] < bodies; ++body[0])
         for (body[1] = body[0] + 1; body[1] < bodies; ++body[1])
             for (at[0] = 0; at[0] < scene_surface_count(f->scene, body[0]); ++at[0])
                 for (at[1] = 0; at[1] < scene_surface_count(f->scene, body[1]); ++at[1]) {
                     if (scene_ignores(f->scene, body[0], body[1])) continue;
-                    const bool found =
-                        next < list->pair_count && is_pair(&list->pairs[next], body, at);
-                    put_pair(f, trees, body, at, found ? next : SIZE_MAX);
-                    next += found;
+                    for (int side = 0; side < 2; ++side)
+                        proof_put_count(&own, chain_of(f, body[side], at[side]));
+                    f->trees->put(f->trees->context, body, at, &own);
                 }
 }
 
@@ -243,16 +208,15 @@ static size_t *number_chains(const imp_scene *scene)
     return first;
 }
 
-imp_code proof_file_write(const imp_scene *scene, const proof_search *search,
+imp_code proof_file_write(const imp_scene *scene, const proof_source *trees,
                           const proof_claim *claim, const char *stated, const proof_sink *to,
                           imp_error *error)
 {
-    file f = {.scene = scene, .search = search, .claim = claim, .to = to};
+    file f = {.scene = scene, .trees = trees, .claim = claim, .to = to};
     sha256_begin(&f.hash);
     f.first_chain = number_chains(scene);
-    proof_trees *trees = proof_trees_new(search->log);
     imp_code code = IMP_SUCCESS;
-    if (f.first_chain == NULL || trees == NULL) code = error_set_memory(error);
+    if (f.first_chain == NULL) code = error_set_memory(error);
     if (code == IMP_SUCCESS) {
         put_claim(&f, stated);
         code = put_scene(&f, error);
@@ -260,12 +224,11 @@ imp_code proof_file_write(const imp_scene *scene, const proof_search *search,
     if (code == IMP_SUCCESS) {
         uint8_t digest[SHA256_BYTES];
         put(&f, "trees\n");
-        put_trees(&f, trees);
+        put_trees(&f);
         sha256_end(&f.hash, digest);
         hand_over(&f);
         to->write(to->context, digest, sizeof digest);
     }
-    proof_trees_free(trees);
     free(f.written);
     free(f.first_chain);
     return code;

@@ -3,8 +3,7 @@
 #ifndef CORE_PROOF_PROOF_FILE_H
 #define CORE_PROOF_PROOF_FILE_H
 
-#include "core/broad_phase/candidates.h"
-#include "core/proof/proof_tree.h"
+#include "core/proof/proof_pairs.h"
 
 /* Writing certificates
  * ====================
@@ -23,17 +22,21 @@ typedef struct proof_claim {
     bool has_points;     /* the following are claimed, too */
     proof_point point[2];
     double t, within; /* at time t the two points are at most this far apart; length */
+    /* For a claim about all values of the scene's parameters: lo and hi of each, and the values at
+     * which the two points are. NULL: it is about the scene as it stands. */
+    const double *ranges, *values;
 } proof_claim;
 
-/* What the file is written from: a search's candidate pairs, and the log of its steps. */
-typedef struct proof_search {
-    const candidate_list *list;
-    const proof_log *log;
-} proof_search;
+/* Writes what follows the numbers of two surfaces, of bodies a < b (CERTIFICATE.md). It is called
+ * in the order of the scene. */
+typedef struct proof_source {
+    void *context;
+    void (*put)(void *context, const size_t body[2], const size_t at[2], const proof_sink *to);
+} proof_source;
 
 /* Writes a certificate. `stated`: lines that name the sources, each with its newline; NULL: none.
  * Fails with IMP_ERROR_MEMORY, or as a plugin fails that is asked for a formula. */
-imp_code proof_file_write(const imp_scene *scene, const proof_search *search,
+imp_code proof_file_write(const imp_scene *scene, const proof_source *trees,
                           const proof_claim *claim, const char *stated, const proof_sink *to,
                           imp_error *error);
 

@@ -92,15 +92,12 @@ static void put_leaf(writer *w, const proof_record *r)
     }
 }
 
-/* Returns the time at k / 65536 of a cell, as the program that reads the file computes it. */
-static double time_at(double lo, double hi, unsigned k) { return lo + (hi - lo) * (k / 65536.0); }
-
 /* Splits the cell at k / 65536 of its time, 0 < k < 65536, and returns where. */
 static double put_time(const writer *w, double lo, double hi, double k)
 {
     put(w, PROOF_OP_TIME);
     put_16(w, (uint16_t)k);
-    return time_at(lo, hi, (unsigned)k);
+    return proof_place(lo, hi, (unsigned)k);
 }
 
 static double part_of(double lo, double hi, double t) { return (t - lo) / (hi - lo) * 65536; }

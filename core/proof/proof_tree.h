@@ -16,6 +16,7 @@ enum {
     PROOF_OP_AXIS = 5,  /* leaf, + 6 bytes: an axis */
     PROOF_OP_SAME = 6,  /* leaf, with the axis of the leaf before, if that had one */
     PROOF_OP_ALONE = 7, /* leaf, without an axis */
+    PROOF_OP_CLOCK = 8, /* + a count, a clock, + 2 bytes, k: split at k / 65536 of its values */
 };
 
 /* Takes bytes of a file in order. */
@@ -25,6 +26,17 @@ typedef struct proof_sink {
 } proof_sink;
 
 typedef struct proof_trees proof_trees;
+
+/* Returns the number at k / 65536 of a cell, as the program that reads the file computes it. */
+static inline double proof_place(double lo, double hi, unsigned k)
+{
+    return lo + (hi - lo) * (k / 65536.0);
+}
+
+/* Copies a tree that was written over the times [lo, hi] of a query to a cell of the times [from,
+ * to]: splits that are not in the cell are left out. Answers false if the bytes are no tree. */
+bool proof_tree_copy(const uint8_t *tree, size_t size, double lo, double hi, double from, double to,
+                     const proof_sink *sink);
 
 /* Reads the log, which must outlive the result; NULL: no memory. */
 proof_trees *proof_trees_new(const proof_log *log);

@@ -7,8 +7,8 @@
 
 #include "core/base/fp_mode.h"
 #include "core/base/status.h"
-#include "core/proof/proof_file.h"
 #include "core/solver/query_internal.h"
+#include "core/solver/query_proof.h"
 
 /* --- Keeping ---------------------------------------------------------------------------------- */
 
@@ -55,7 +55,7 @@ static proof_point point_of(const imp_side *side)
     return (proof_point){side->body, side->surface, side->piece, side->u, side->v};
 }
 
-static void take_points(proof_claim *claim, const imp_side *a, const imp_side *b, double t,
+void proof_claim_points(proof_claim *claim, const imp_side *a, const imp_side *b, double t,
                         double within)
 {
     claim->has_points = true;
@@ -75,8 +75,8 @@ static proof_claim claim_of_contact(const imp_query *query)
                          .from = query->options.t_start,
                          .to = im->t_lower};
     if (query->verdict == IMP_VERDICT_CONTACT)
-        take_points(&claim, &query->contact.side[0], &query->contact.side[1], im->t_lower,
-                    im->gamma);
+        proof_claim_points(&claim, &query->contact.side[0], &query->contact.side[1], im->t_lower,
+                           im->gamma);
     return claim;
 }
 
@@ -95,7 +95,7 @@ static const char *word_of(imp_requirement verdict)
 /* Part of the points' coordinates that is added to their distance for the verifier's rounding. */
 #define WITHIN_ROUNDING 0x1p-44
 
-static double within_upper(const imp_clearance *answer)
+double proof_within_upper(const imp_clearance *answer)
 {
     double size = answer->upper;
     for (int i = 0; i < 3; ++i) size += fabs(answer->a.point[i]) + fabs(answer->b.point[i]);
@@ -115,10 +115,10 @@ static imp_code claim_of_clearance(const imp_query *query, proof_claim *claim, b
                            .from = proved.from,
                            .to = proved.to};
     if (answer.t_violated >= proved.from)
-        take_points(claim, &answer.a_violated, &answer.b_violated, answer.t_violated,
-                    answer.required);
+        proof_claim_points(claim, &answer.a_violated, &answer.b_violated, answer.t_violated,
+                           answer.required);
     else if (answer.has_witness)
-        take_points(claim, &answer.a, &answer.b, answer.t, within_upper(&answer));
+        proof_claim_points(claim, &answer.a, &answer.b, answer.t, proof_within_upper(&answer));
     return IMP_SUCCESS;
 }
 
@@ -142,9 +142,22 @@ FP_APART static imp_code write_proof(const imp_query *query, const char *stated,
     if (query->clearance != NULL) code = claim_of_clearance(query, &claim, &contact, error);
     if (code != IMP_SUCCESS) return code;
     const proof_log *log = contact ? &query->proof->contact : &query->proof->distance;
-    if (log->failed) return error_set_memory(error);
-    return proof_file_write(query->scene, &(proof_search){&query->candidates, log}, &claim, stated,
-                            to, error);
+    const proof_search search = {&query->candidates, log};
+    proof_pairs pairs;
+    if (log->failed || !proof_pairs_begin(&pairs, query->scene, &search, claim.from, claim.to))
+        return error_set_memory(error);
+    const proof_source trees = {&pairs, proof_pairs_put};
+    code = proof_file_write(query->scene, &trees, &claim, stated, to, error);
+    proof_pairs_end(&pairs);
+    return code;
+}
+
+proof_search query_proof_search(const imp_query *query)
+{
+    const clearance_search *c = query->clearance;
+    const bool contact = c == NULL || clearance_what_is_proved(c).contact;
+    return (proof_search){&query->candidates,
+                          contact ? &query->proof->contact : &query->proof->distance};
 }
 
 imp_code imp_query_write_proof(const imp_query *query, const char *stated, imp_proof_sink write,

@@ -170,6 +170,8 @@ static shared_instance *map_at(shared_instance *inner, double value)
 
 /* --- Surfaces --------------------------------------------------------------------------------- */
 
+const void *clocked_self(const void *self) { return ((const clocked_surface *)self)->self; }
+
 static void surface_times(const void *self, double lo[3], double hi[3])
 {
     const clocked_surface *s = self;

@@ -18,4 +18,7 @@
  * NULL: no memory. */
 shared_instance *clocked_new(shared_instance *inner, size_t clock, double value);
 
+/* What the type itself made, of a surface that follows a clock, or of a piece of it. */
+const void *clocked_self(const void *self);
+
 #endif

@@ -12,6 +12,7 @@
 #include <impinge/formula_text.h>
 
 #include "core/common/array.h"
+#include "core/surface/clocked.h"
 #include "core/surface/surface_internal.h"
 
 /* --- A text that grows ------------------------------------------------------------------------ */
@@ -141,12 +142,11 @@ static imp_status add_formula(const shared_instance *origin, const void *self, t
     return IMP_STATUS_OK;
 }
 
-imp_status surface_formula(const surface *s, size_t k, char **text)
+static imp_status write_formula(const shared_instance *origin, const void *self, char **text)
 {
-    const shared_instance *origin = surface_origin(s, k);
     text_buffer raw = {.at = NULL}, closed = raw;
     *text = NULL;
-    imp_status status = add_formula(origin, k == 0 ? s->self : origin->self, &raw);
+    imp_status status = add_formula(origin, self, &raw);
     if (status == IMP_STATUS_OK && (raw.is_wrong || raw.length == 0)) status = SURFACE_BAD_FORMULA;
     if (status == IMP_STATUS_OK && !raw.is_full) bind(&closed, &origin->numbers, raw.at);
     if (status == IMP_STATUS_OK && (raw.is_full || closed.is_full)) status = IMP_STATUS_INTERNAL;
@@ -154,4 +154,16 @@ imp_status surface_formula(const surface *s, size_t k, char **text)
     if (*text == NULL) free(closed.at);
     free(raw.at);
     return status == IMP_STATUS_UNBOUNDED ? IMP_STATUS_OK : status;
+}
+
+imp_status surface_formula(const surface *s, size_t k, char **text)
+{
+    const shared_instance *origin = surface_origin(s, k);
+    return write_formula(origin, k == 0 ? s->self : origin->self, text);
+}
+
+imp_status surface_own_formula(const surface *s, size_t k, char **text)
+{
+    const shared_instance *inner = surface_origin(s, k)->inner;
+    return write_formula(inner, k == 0 ? clocked_self(s->self) : inner->self, text);
 }

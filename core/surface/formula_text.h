@@ -16,4 +16,8 @@
  * the callback returned it; another status is a breach of the ABI (surface_status_message). */
 imp_status surface_formula(const surface *s, size_t k, char **text);
 
+/* Like surface_formula, of an instance that follows a clock (its `inner`): its t is the clock's
+ * value. */
+imp_status surface_own_formula(const surface *s, size_t k, char **text);
+
 #endif

@@ -3,7 +3,7 @@
 #include <config.h>
 
 #include "core/base/rounding.h"
-#include "core/survey/box_question.h"
+#include "core/survey/survey_proof.h"
 
 /* Records that nothing comes near while the swept parameter is below t, and cuts that part off the
  * box. */
@@ -60,8 +60,8 @@ static imp_code ask_without_room(imp_survey *s, const survey_box *box, imp_scene
     const uint64_t limit = ROOMLESS_PAIRS_LEAST + ROOMLESS_PAIRS_TIMES * pairs;
     const bool is_own = box_limits_first(s, limit);
     imp_result found;
-    const imp_code code =
-        box_run_contact(s, scene, box_times(s, box), without_room, limit, NULL, &found, error);
+    const imp_code code = box_run_contact(s, NULL, scene, box_times(s, box), without_room, limit,
+                                          NULL, &found, error);
     if (code != IMP_SUCCESS) return code;
     if (found.verdict == IMP_VERDICT_CONTACT) note_contact(s, box, &found);
     if (found.verdict != IMP_VERDICT_UNDECIDED) return IMP_SUCCESS;
@@ -92,10 +92,10 @@ static imp_code run_box(imp_survey *s, const survey_box *box, imp_scene *scene,
     const query_times times = box_times(s, box);
     query_spread spread;
     if (is_fine || box_is_unmoved(&s->pairs.at[box->pair]))
-        return box_run_contact(s, scene, times, gamma, 0, NULL, found, error);
+        return box_run_contact(s, box, scene, times, gamma, 0, NULL, found, error);
     imp_code code = survey_spread_make(s, box, bounds, &spread, error);
     if (code == IMP_SUCCESS)
-        code = box_run_contact(s, scene, times, gamma, ROOMY_PAIRS_MOST,
+        code = box_run_contact(s, box, scene, times, gamma, ROOMY_PAIRS_MOST,
                                spread.is_known ? &spread : NULL, found, error);
     survey_spread_clear(&spread);
     return code;
@@ -121,6 +121,7 @@ static imp_code ask_queries(imp_survey *s, survey_box *box, imp_scene *scene,
     imp_result found;
     imp_code code = run_box(s, box, scene, bounds, coarse, is_fine, &found, error);
     if (code != IMP_SUCCESS) return code;
+    survey_proof_note(s, found.verdict == IMP_VERDICT_CLEAR ? INFINITY : found.t_lower, 0);
     prove_until(s, box, found.t_lower, found.verdict == IMP_VERDICT_CLEAR);
     if (found.verdict == IMP_VERDICT_CLEAR) {
         record_later(s, box);

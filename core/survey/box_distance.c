@@ -3,7 +3,7 @@
 #include <config.h>
 
 #include "core/base/rounding.h"
-#include "core/survey/box_question.h"
+#include "core/survey/survey_proof.h"
 
 double survey_distance_enough(const imp_survey *s)
 {
@@ -53,11 +53,12 @@ static imp_code measure_distance(imp_survey *s, survey_box *box, double total, b
     imp_clearance found;
     imp_code code = box_scene(s, box, &scene, error);
     if (code != IMP_SUCCESS) return code;
-    code = box_run_distance(s, scene, box_times(s, box), within, tolerance_of(s, total), &found,
-                            error);
+    code = box_run_distance(s, box, scene, box_times(s, box), within, tolerance_of(s, total),
+                            &found, error);
     imp_scene_free(scene);
     if (code != IMP_SUCCESS) return code;
     const double lower = total > 0 ? difference_lower(found.lower, total) : found.lower;
+    survey_proof_note(s, -INFINITY, lower);
     if (lower > box->key) box->key = lower;
     note_nearest(s, box, &found);
     if (box_must_end(s, found.reason)) *state = BOX_WAITING;

@@ -7,7 +7,7 @@
 #include "core/base/status.h"
 #include "core/common/clock.h"
 #include "core/scene/posed_scene.h"
-#include "core/survey/box_question.h"
+#include "core/survey/survey_proof.h"
 
 /* Ignores, in the query about all other pairs, the pairs of bodies that parameters move: each has
  * boxes of its own. */
@@ -150,9 +150,22 @@ static double seam_of(const imp_survey *s)
     return s->question.options.gamma < twice ? s->question.options.gamma : twice;
 }
 
-imp_code box_run_contact(imp_survey *s, imp_scene *scene, query_times times, const double gamma[2],
-                         uint64_t pairs, const query_spread *spread, imp_result *result,
-                         imp_error *error)
+/* Has the query keep its proof, if that is wanted. */
+static imp_code keep_proof(const imp_survey *s, const survey_box *proved, imp_query *query,
+                           imp_error *error)
+{
+    return s->proof != NULL && proved != NULL ? imp_query_keep_proof(query, error) : IMP_SUCCESS;
+}
+
+static imp_code take_proof(imp_survey *s, const survey_box *proved, const imp_query *query,
+                           query_times times, imp_error *error)
+{
+    return proved != NULL ? survey_proof_take(s, proved, query, times, error) : IMP_SUCCESS;
+}
+
+imp_code box_run_contact(imp_survey *s, const survey_box *proved, imp_scene *scene,
+                         query_times times, const double gamma[2], uint64_t pairs,
+                         const query_spread *spread, imp_result *result, imp_error *error)
 {
     imp_options options = options_of_query(s, times.start, times.end, pairs);
     options.gamma = gamma[0];
@@ -162,15 +175,18 @@ imp_code box_run_contact(imp_survey *s, imp_scene *scene, query_times times, con
     if (query == NULL) return error != NULL ? error->code : IMP_ERROR_USAGE;
     query_use_spread(query, spread);
     query_limit_seams(query, seam_of(s));
-    imp_code code = imp_query_step(query, 0, error);
+    imp_code code = keep_proof(s, proved, query, error);
+    if (code == IMP_SUCCESS) code = imp_query_step(query, 0, error);
     if (code == IMP_SUCCESS) code = imp_query_get_result(query, result, error);
+    if (code == IMP_SUCCESS) code = take_proof(s, proved, query, times, error);
     if (code == IMP_SUCCESS) add_stats(s, &result->stats);
     imp_query_free(query);
     return code;
 }
 
-imp_code box_run_distance(imp_survey *s, imp_scene *scene, query_times times, double within,
-                          double tolerance, imp_clearance *answer, imp_error *error)
+imp_code box_run_distance(imp_survey *s, const survey_box *proved, imp_scene *scene,
+                          query_times times, double within, double tolerance, imp_clearance *answer,
+                          imp_error *error)
 {
     const imp_options options = options_of_query(s, times.start, times.end, 0);
     imp_clearance_options asked = imp_clearance_options_default();
@@ -179,8 +195,11 @@ imp_code box_run_distance(imp_survey *s, imp_scene *scene, query_times times, do
     *answer = (imp_clearance){.struct_size = (uint32_t)sizeof *answer};
     imp_query *query = imp_clearance_new(scene, &options, &asked, error);
     if (query == NULL) return error != NULL ? error->code : IMP_ERROR_USAGE;
-    imp_code code = imp_query_step(query, 0, error);
+    imp_code code = keep_proof(s, proved, query, error);
+    if (code == IMP_SUCCESS) code = imp_query_step(query, 0, error);
     if (code == IMP_SUCCESS) code = imp_clearance_get(query, 0, answer, error);
+    if (code == IMP_SUCCESS && !box_is_limit(answer->reason))
+        code = take_proof(s, proved, query, times, error);
     if (code == IMP_SUCCESS) add_stats(s, &answer->stats);
     imp_query_free(query);
     return code;

@@ -33,15 +33,18 @@ query_times box_times(const imp_survey *s, const survey_box *box);
 imp_code box_scene(imp_survey *s, const survey_box *box, imp_scene **made, imp_error *error);
 
 /* Runs a query on that scene. gamma: {gamma, gamma_clear}; pairs: a limit of this query's own, 0:
- * none; spread may be NULL. */
-imp_code box_run_contact(imp_survey *s, imp_scene *scene, query_times times, const double gamma[2],
-                         uint64_t pairs, const query_spread *spread, imp_result *result,
-                         imp_error *error);
+ * none; spread may be NULL. `proved`: the box of which the query's proof is kept, if the survey
+ * keeps any; NULL: none. */
+imp_code box_run_contact(imp_survey *s, const survey_box *proved, imp_scene *scene,
+                         query_times times, const double gamma[2], uint64_t pairs,
+                         const query_spread *spread, imp_result *result, imp_error *error);
+
 /* Whether such a limit ends a query before the survey's own would. */
 bool box_limits_first(const imp_survey *s, uint64_t pairs);
 
-imp_code box_run_distance(imp_survey *s, imp_scene *scene, query_times times, double within,
-                          double tolerance, imp_clearance *answer, imp_error *error);
+imp_code box_run_distance(imp_survey *s, const survey_box *proved, imp_scene *scene,
+                          query_times times, double within, double tolerance, imp_clearance *answer,
+                          imp_error *error);
 
 bool box_is_limit(imp_reason reason);
 

@@ -9,7 +9,7 @@
 #include "core/base/sized.h"
 #include "core/base/status.h"
 #include "core/common/clock.h"
-#include "core/survey/survey_internal.h"
+#include "core/survey/survey_proof.h"
 
 /* --- What is asked ---------------------------------------------------------------------------- */
 
@@ -192,6 +192,7 @@ void imp_survey_free(imp_survey *s)
     box_queue_clear(&s->queue);
     survey_snapshot_drop(s);
     survey_records_clear(&s->records);
+    survey_proof_free(s->proof);
     free(s->pairs.at);
     free(s->extents.of);
     free(s->extents.first);

@@ -6,7 +6,7 @@
 #include <string.h>
 
 #include "core/base/status.h"
-#include "core/survey/box_question.h"
+#include "core/survey/survey_proof.h"
 
 bool box_is_unmoved(const survey_pair *pair) { return pair->body[0] == SURVEY_ALL_BODIES; }
 
@@ -61,6 +61,9 @@ imp_code box_split(imp_survey *s, const survey_box *box, const box_bounds *bound
                  size = sizeof *box + 2 * s->parameters * sizeof *box->range;
     *done = j < s->parameters;
     if (*done) s->counts.cuts[j] += 1;
+    const imp_code code =
+        *done ? survey_proof_halve(s, box, j, s->counts.made, error) : IMP_SUCCESS;
+    if (code != IMP_SUCCESS) return code;
     for (int side = 0; *done && side < 2; ++side) {
         survey_box *half = malloc(size);
         if (half == NULL) return error_set_memory(error);

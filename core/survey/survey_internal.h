@@ -40,7 +40,8 @@
  * survey.c steps, survey_box.c and box_*.c decide one box (box_question.h), survey_measure.c bounds
  * how its parameters shift bodies, survey_pairs.c finds which bodies which parameters move,
  * survey_records.c hands boxes to the sink and keeps a snapshot for imp_survey_save,
- * survey_state.c saves and loads, survey_answer.c and survey_cost.c return results. */
+ * survey_state.c saves and loads, survey_answer.c and survey_cost.c return results; survey_proof.c
+ * keeps what certificates need, survey_claim.c writes them. */
 
 #define SURVEY_ALL_BODIES SIZE_MAX
 
@@ -95,6 +96,8 @@ typedef struct survey_records {
     bool failed; /* no memory for one */
 } survey_records;
 
+typedef struct survey_proof survey_proof; /* survey_proof.h */
+
 /* What is asked. */
 typedef struct survey_question {
     imp_options options;
@@ -145,6 +148,7 @@ struct imp_survey {
     survey_snapshot before;
     survey_records records;
     survey_clock clock;
+    survey_proof *proof; /* NULL: none is kept */
     imp_verdict verdict;
     imp_reason reason;
     bool failed;

@@ -29,7 +29,7 @@ unguarded_functions() { # FOLDER
         imp_builder_new imp_builder_time imp_builder_gamma imp_builder_body imp_builder_parent
         imp_builder_group imp_builder_solid imp_builder_ignore imp_builder_surface_of imp_builder_bodies_of imp_scene_is_solid imp_scene_pair_count imp_scene_piece_count imp_scene_eval imp_scene_include
         imp_scene_follows imp_scene_parameter imp_scene_parameter_count imp_survey_options_get_default imp_survey_free
-        imp_survey_cancel imp_survey_cuts imp_survey_get_cost imp_survey_values imp_survey_worst
+        imp_survey_cancel imp_survey_cuts imp_survey_get_cost imp_survey_keep_proof imp_survey_values imp_survey_worst
         imp_piece_domain imp_piece_stage_count imp_piece_stage "
     local name
     for name in $(grep -h -A1 '^IMP_EXPORT' "$1"/core/impinge/*.h |

@@ -72,6 +72,22 @@ static const char roofs[] =
 
 static const uint8_t roofs_tree[] = {0, 1, 0, 1, 0, 1, 1, 1, 0, 0, 7, 2, 7, 7};
 
+/* A ball on an arm that turns by q, and one that slides away by w: 2.17 apart at q = 0.9, w = 0. */
+static const char arm[] =
+    "impinge certificate 2\nprogram impinge 0\nverdict distance\napart 2\nfrom 0\nto 1\n"
+    "parameter 0.9 1.5 q\nparameter 0 0.5 w\nwithin 3 at 0.5 0.9 0\npoint 0 0 0 0\n"
+    "point 1 0 0 0\nbody arm\nshape 1 sphere\nu in [0, 2*pi]; v in [-pi/2, pi/2]; "
+    "2 + 0.5*cos(v)*cos(u); 0.5*cos(v)*sin(u); 0.5*sin(v)\n"
+    "map 1 rotate clock 1\nx*cos(t) - y*sin(t); x*sin(t) + y*cos(t); z\nsurface 0 0 1\n"
+    "body other\nshape 1 sphere\nu in [0, 2*pi]; v in [-pi/2, pi/2]; "
+    "4 - 0.5*cos(v)*cos(u); 0.5*cos(v)*sin(u); 0.5*sin(v)\n"
+    "map 1 slide clock 2\nx + t; y; z\nsurface 1 2 3\ntrees\n";
+
+static const uint8_t arm_tree[] = {0, 1,    0, 0, 8, 1,    0x40, 0, 7, 8,
+                                   2, 0x80, 0, 7, 4, 0x20, 0,    7, 7};
+
+static inline certificate arm_made(void) { return made(arm, arm_tree, sizeof arm_tree); }
+
 static inline certificate roofs_made(void) { return made(roofs, roofs_tree, sizeof roofs_tree); }
 
 static inline certificate bowl_made(void) { return made(bowl, bowl_tree, sizeof bowl_tree); }

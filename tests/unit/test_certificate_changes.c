@@ -32,24 +32,28 @@ static bool point_of(const place *of, const double p[3], double x[3])
  * the next ones to it. */
 static bool is_false(const statement *s, uint64_t *seed)
 {
+    enum { NUMBERS = 4 + CLOCKS_MAX };
     jet *room = malloc((2 * (size_t)s->steps + 1) * sizeof *room);
-    double best = INFINITY, at[5] = {0, 0, 0, 0, s->from}, size = 1;
+    double best = INFINITY, at[NUMBERS] = {0}, size = 1;
     place best_place[2] = {{.of = NULL}, {.of = NULL}};
+    values when = {.count = s->clock_count};
     for (int draw = 0; draw < 200; ++draw) {
-        double p[5], x[2][3];
+        double p[NUMBERS], x[2][3];
         box3 all[2];
         place on[2];
         for (size_t k = 0; k < 2; ++k) {
-            on[k] = (place){s,    &s->chains[k], draw_piece(s, k, seed), s->chains[k].count - 1,
-                            room, NULL};
+            on[k] =
+                (place){s,    &s->chains[k], draw_piece(s, k, seed), s->chains[k].count - 1, room,
+                        NULL, &when};
             if (draw >= 60 && best < INFINITY) on[k] = best_place[k];
             piece_box(&on[k], &all[k]);
         }
-        for (int j = 0; j < 5; ++j) {
-            const double lo = j < 4 ? all[j / 2].lo[j % 2] : s->from;
-            const double hi = j < 4 ? all[j / 2].hi[j % 2] : s->to;
+        for (size_t j = 0; j < 4 + s->clock_count; ++j) {
+            const double lo = j < 4 ? all[j / 2].lo[j % 2] : s->clocks[j - 4].lo;
+            const double hi = j < 4 ? all[j / 2].hi[j % 2] : s->clocks[j - 4].hi;
             const double r = lo + (hi - lo) * random_between(seed, 0, 1);
             p[j] = draw < 60 ? r : at[j] + size * (r - at[j]);
+            if (j >= 4) when.lo[j - 4] = when.hi[j - 4] = p[j];
         }
         const double a[3] = {p[0], p[1], p[4]}, b[3] = {p[2], p[3], p[4]};
         if (draw > 60) size *= 0.93;
@@ -88,8 +92,9 @@ START_TEST(no_change_makes_a_false_statement_hold)
     int accepted = 0;
     for (int k = 0; k < count; ++k) {
         certificate c = k % 40 == 39 ? shaft_made()
-                        : k % 3 == 0 ? bowl_made()
-                        : k % 3 == 1 ? balls_made()
+                        : k % 4 == 0 ? bowl_made()
+                        : k % 4 == 1 ? balls_made()
+                        : k % 4 == 2 ? arm_made()
                                      : roofs_made();
         for (int n = 1 + k % 3; n > 0; --n) change(&c, &seed);
         statement s;
@@ -158,6 +163,73 @@ START_TEST(every_kind_of_leaf_proves_what_is_true_and_refuses_what_is_false)
 }
 END_TEST
 
+typedef struct claim_change {
+    const char *from, *to;
+    bool holds;
+} claim_change;
+
+static void check_claim(const char *what, const uint8_t *tree, size_t size, const claim_change *by)
+{
+    certificate c = made(arm, tree, size);
+    statement s;
+    char fault[1400];
+    bool assumes;
+    replace(&c, by->from, by->to);
+    const bool good = verify(&c, 2000, &s, fault, &assumes);
+    ck_assert_msg(good == by->holds, "%s, %s: %s", what, by->to, good ? "accepted" : fault);
+    statement_free(&s);
+}
+
+/* Trees over values of two parameters, of which either or time is T. */
+START_TEST(claims_about_all_values_of_parameters_hold_only_if_they_are_true)
+{
+    static const struct {
+        const char *what;
+        size_t size;
+        uint8_t tree[TREE_MAX];
+    } kinds[] = {
+        {"one leaf", 2, {0, 7}},
+        {"halves of q", 7, {0, 8, 1, 0x80, 0, 7, 7}},
+        {"nothing and all of q", 7, {0, 8, 1, 0, 0, 7, 7}},
+        {"parts of w", 7, {0, 8, 2, 0xff, 0xff, 7, 7}},
+        {"parts of time, q and w", 16, {0, 4, 1, 0, 7, 8, 1, 9, 0, 7, 8, 2, 9, 0, 7, 7}},
+        {"q is T", 2, {1, 7}},
+        {"q is T, a part left out", 10, {1, 4, 0x80, 0, 8, 0, 0x80, 0, 7, 7}},
+        {"w is T", 7, {2, 8, 1, 0x80, 0, 7, 7}},
+    };
+    static const claim_change claims[] = {
+        {"apart 2", "apart 2", true},
+        {"apart 2", "apart 2.2", false},
+        {"parameter 0.9", "parameter 0.95", false}, /* the points are of 0.9 */
+        {"parameter 0.9", "parameter 0.1", false},
+        {"1.5 q", "6.2 q", false},
+        {"parameter 0 ", "parameter -0.5 ", false},
+        {"0.5 w", "1.5 w", true},
+        {"rotate clock 1", "rotate clock 2", false},
+        {"rotate clock 1", "rotate clock 0", false},
+        {"rotate clock 1", "rotate", false},
+        {"rotate clock 1", "rotate clock 3", false},
+        {"rotate clock 1", "rotate clock", false},
+        {"slide clock 2", "slide clock 1", false}, /* the points are farther apart */
+        {"x + t", "x - t", false},
+        {"within 3", "within 2", false},
+        {"at 0.5 0.9 0", "at 0.5 0.9", false},
+        {"at 0.5 0.9 0", "at 0.5 0.9 0 0", false},
+        {"at 0.5 0.9 0", "at 0.5 0.8 0", false},
+        {"certificate 2", "certificate 1", false},
+        {" w\n", " q\n", false},
+        {"parameter 0 0.5 w\n", "", false}};
+    for (size_t k = 0; k < sizeof kinds / sizeof *kinds; ++k)
+        for (size_t i = 0; i < sizeof claims / sizeof *claims; ++i) {
+            uint8_t tree[3 + TREE_MAX] = {0, 1, 0};
+            memcpy(tree + 3, kinds[k].tree, kinds[k].size);
+            const bool is_whole = strcmp(kinds[k].what, "q is T, a part left out") != 0;
+            const claim_change by = {claims[i].from, claims[i].to, claims[i].holds && is_whole};
+            check_claim(kinds[k].what, tree, 3 + kinds[k].size, &by);
+        }
+}
+END_TEST
+
 /* --- Intervals -------------------------------------------------------------------------------- */
 
 /* An end, of any size, often one where rounding or overflow begins. */
@@ -212,5 +284,6 @@ START_TEST(operations_in_doubles_contain_those_of_mpfi)
 }
 END_TEST
 
-SUITE_MAIN("certificate_changes", every_kind_of_leaf_proves_what_is_true_and_refuses_what_is_false,
+SUITE_MAIN("certificate_changes", claims_about_all_values_of_parameters_hold_only_if_they_are_true,
+           every_kind_of_leaf_proves_what_is_true_and_refuses_what_is_false,
            operations_in_doubles_contain_those_of_mpfi, no_change_makes_a_false_statement_hold)

@@ -74,7 +74,7 @@ START_TEST(false_certificates_are_refused)
         {false, "surface 1 1 2", "surface 1 1 7", "number"},
         {false, "apart 0x1p-4", "apart nan", "finite"},
         {false, "apart 0x1p-4", "apart -1", "nothing"},
-        {false, "impinge certificate 1", "impinge certificate 2", "begins"},
+        {false, "impinge certificate 1", "impinge certificate 3", "begins"},
         {false, "body lid", "body bowl", "named 'bowl'"},
         {false, "verdict contact", "verdict contact\nverdict clear", "begins with 'verdict'"},
         {false, "apart 0x1p-4", "apart 0x1p-4 0.7", "too long"},

@@ -24,6 +24,7 @@ exit_status proof_output_check(const arguments *args)
     static const char *const others[][2] = {
         {"each", "leave --each out: it is about all bodies"},
         {"refine", "leave --refine out, and give the last --gamma"},
+        {"resume", "ask without --resume"},
         {"profile", "leave --profile out, and give the --time of one slice"}};
     for (size_t k = 0; k < sizeof others / sizeof *others; ++k)
         if (arguments_option(args, "proof") != NULL && arguments_option(args, others[k][0]) != NULL)
@@ -34,13 +35,30 @@ exit_status proof_output_check(const arguments *args)
     return EXIT_ANSWERED;
 }
 
+/* Whether a proof is wanted and can be written; *status tells where not. */
+static bool is_wanted(const arguments *args, exit_status *status)
+{
+    *status = EXIT_ANSWERED;
+    if (arguments_option(args, "proof") == NULL) return false;
+    *status = output_spares_operands(args, "proof");
+    return *status == EXIT_ANSWERED;
+}
+
 exit_status proof_output_begin(imp_query *query, const arguments *args)
 {
     imp_error error = {0};
-    if (arguments_option(args, "proof") == NULL) return EXIT_ANSWERED;
-    const exit_status spared = output_spares_operands(args, "proof");
-    if (spared != EXIT_ANSWERED) return spared;
-    if (imp_query_keep_proof(query, &error) == IMP_SUCCESS) return EXIT_ANSWERED;
+    exit_status status;
+    if (!is_wanted(args, &status) || imp_query_keep_proof(query, &error) == IMP_SUCCESS)
+        return status;
+    return complain_of(&error, args->verb->name);
+}
+
+exit_status proof_output_begin_survey(imp_survey *survey, const arguments *args)
+{
+    imp_error error = {0};
+    exit_status status;
+    if (!is_wanted(args, &status) || imp_survey_keep_proof(survey, &error) == IMP_SUCCESS)
+        return status;
     return complain_of(&error, args->verb->name);
 }
 
@@ -66,8 +84,9 @@ static void put(void *context, const void *bytes, size_t size)
     fwrite(bytes, 1, size, context); /* output_file_end looks for failures */
 }
 
-exit_status proof_output_write(const imp_query *query, const imp_scene *scene,
-                               const arguments *args)
+/* Writes the proof of `query`, or else of `survey`. */
+static exit_status write_proof(const imp_query *query, const imp_survey *survey,
+                               const imp_scene *scene, const arguments *args)
 {
     const option_value *path = arguments_option(args, "proof");
     output_file out;
@@ -77,8 +96,22 @@ exit_status proof_output_write(const imp_query *query, const imp_scene *scene,
     if (stated == NULL) return EXIT_DATA;
     exit_status status = output_file_begin(&out, path->text, args->verb->name);
     if (status != EXIT_ANSWERED) return free(stated), status;
-    const imp_code code = imp_query_write_proof(query, stated, put, out.file, &error);
+    const imp_code code = query != NULL
+                              ? imp_query_write_proof(query, stated, put, out.file, &error)
+                              : imp_survey_write_proof(survey, stated, put, out.file, &error);
     free(stated);
     status = output_file_end(&out, code == IMP_SUCCESS);
     return code == IMP_SUCCESS ? status : complain_of(&error, args->verb->name);
+}
+
+exit_status proof_output_write(const imp_query *query, const imp_scene *scene,
+                               const arguments *args)
+{
+    return write_proof(query, NULL, scene, args);
+}
+
+exit_status proof_output_write_survey(const imp_survey *survey, const imp_scene *scene,
+                                      const arguments *args)
+{
+    return write_proof(NULL, survey, scene, args);
 }

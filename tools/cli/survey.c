@@ -15,6 +15,7 @@
 #include "tools/cli/interrupt.h"
 #include "tools/cli/output.h"
 #include "tools/cli/progress.h"
+#include "tools/cli/proof_output.h"
 #include "tools/cli/query.h"
 #include "tools/cli/result.h"
 #include "tools/cli/series.h"
@@ -78,10 +79,6 @@ exit_status survey_check(const arguments *args)
     static const char *const several[] = {"each", "profile", "refine", NULL};
     static const char *const files[] = {"boxes", "resume", NULL};
     const char *many = first_given(args, several), *file = first_given(args, files);
-    if (arguments_option(args, "proof") != NULL)
-        return complain(
-            EXIT_USAGE, args->verb->name,
-            "--proof does not go with the parameters that the scene has; ask without it");
     if (many != NULL && file != NULL)
         return complain(EXIT_USAGE, args->verb->name, "--%s and --%s exclude each other", many,
                         file);
@@ -177,14 +174,21 @@ static imp_code step(survey_run *r, imp_error *error)
     return code;
 }
 
-static imp_code find_answer(survey_run *r, const imp_options *options,
-                            const imp_survey_options *how, const imp_clearance_options *asked,
-                            imp_error *error)
+static imp_code begin(survey_run *r, const imp_options *options, const imp_survey_options *how,
+                      const imp_clearance_options *asked, imp_error *error)
 {
     r->answer.numbers = calloc(survey_answer_room(r->scene), sizeof *r->answer.numbers);
     if (r->answer.numbers == NULL) return error->code = IMP_ERROR_MEMORY;
     r->survey = imp_survey_new(r->scene, options, asked, how, error);
-    return r->survey != NULL ? step(r, error) : error->code;
+    return r->survey != NULL ? IMP_SUCCESS : error->code;
+}
+
+static imp_code find_answer(survey_run *r, const imp_options *options,
+                            const imp_survey_options *how, const imp_clearance_options *asked,
+                            imp_error *error)
+{
+    const imp_code code = begin(r, options, how, asked, error);
+    return code == IMP_SUCCESS ? step(r, error) : code;
 }
 
 static void run_end(survey_run *r)
@@ -200,9 +204,12 @@ static exit_status run_to_end(survey_run *r, const imp_survey_options *how,
     imp_options options = query_options(r->scene, r->args);
     crew threads = {query_threads_asked(r->args)};
     query_lend_threads(&options, &threads);
-    return find_answer(r, &options, how, asked, &error) == IMP_SUCCESS
-               ? EXIT_ANSWERED
-               : complain_of(&error, r->args->verb->name);
+    if (begin(r, &options, how, asked, &error) != IMP_SUCCESS)
+        return complain_of(&error, r->args->verb->name);
+    const exit_status status = proof_output_begin_survey(r->survey, r->args);
+    if (status != EXIT_ANSWERED) return status;
+    if (step(r, &error) != IMP_SUCCESS) return complain_of(&error, r->args->verb->name);
+    return proof_output_write_survey(r->survey, r->scene, r->args);
 }
 
 static exit_status run(imp_scene *scene, const imp_clearance_options *asked, const arguments *args)

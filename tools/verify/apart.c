@@ -74,9 +74,22 @@ static void find_axes(prover *p, const cell *c, double n[AXES][3])
     }
 }
 
+/* The clock whose values count for more than `most`; false: none does. */
+static bool widest_clock(const prover *p, const apart_trial *tried, double most, cut *by)
+{
+    bool found = false;
+    for (size_t k = 0; k < p->when.count; ++k) {
+        const double lo = p->when.lo[k], hi = p->when.hi[k], mid = middle(lo, hi);
+        if (k == p->when.main || !(lo < mid && mid < hi) || !(tried->clocks[k] > most)) continue;
+        *by = (cut){3, (int)k, NAN};
+        most = tried->clocks[k], found = true;
+    }
+    return found;
+}
+
 /* The variable that the bounds depend on most, for what can be divided; the widest of equals.
  * False: nothing can be divided. */
-static bool widest(const cell *c, const apart_trial *tried, cut *by)
+static bool widest(const prover *p, const cell *c, const apart_trial *tried, cut *by)
 {
     double most = -1, width = 0;
     for (int side = 0; side < 3; ++side)
@@ -88,11 +101,11 @@ static bool widest(const cell *c, const apart_trial *tried, cut *by)
             *by = (cut){side, j, NAN};
             most = here, width = hi - lo;
         }
-    return width > 0;
+    return widest_clock(p, tried, most, by) || width > 0;
 }
 
 /* The side of many pieces with the greater shadow, or time if the pieces depend on it more. */
-static bool divide_many(const cell *c, const apart_trial *tried, cut *by)
+static bool divide_many(const prover *p, const cell *c, const apart_trial *tried, cut *by)
 {
     double size[2];
     for (int side = 0; side < 2; ++side) size[side] = c->count[side] > 1 ? tried->width[side] : -1;
@@ -100,13 +113,14 @@ static bool divide_many(const cell *c, const apart_trial *tried, cut *by)
     const double mid = middle(c->t[0], c->t[1]);
     const bool has_time = c->t[0] < mid && mid < c->t[1];
     *by = (cut){has_time && 2 * tried->time > size[larger] ? 2 : larger, 0, NAN};
+    widest_clock(p, tried, proof_larger(0.5 * size[larger], tried->time), by);
     return true;
 }
 
-static bool divide_cell(const cell *c, const apart_trial *tried, cut *by)
+static bool divide_cell(const prover *p, const cell *c, const apart_trial *tried, cut *by)
 {
     const bool is_single = c->count[0] == 1 && c->count[1] == 1;
-    return is_single ? widest(c, tried, by) : divide_many(c, tried, by);
+    return is_single ? widest(p, c, tried, by) : divide_many(p, c, tried, by);
 }
 
 /* The least distance of some corners at one time, and an upper bound of it. */
@@ -120,6 +134,13 @@ static void take_distance(double a[8][3], double b[8][3], double off, double *le
             *least = proof_smaller(*least, sqrt(sum));
         }
     *upper = *least * (1 + 0x1p-40) + off * (1 + 0x1p-40);
+}
+
+/* A cut by T or by another clock. */
+static cut cut_of(const split *parts)
+{
+    if (parts->along == T) return (cut){2, 0, parts->at};
+    return (cut){3, parts->along - VARIABLES, parts->at};
 }
 
 /* Whether two points, corners of the cell, are surely nearer, or a single piece has parts. */
@@ -136,7 +157,7 @@ static apart_outcome look_at_pieces(prover *p, const cell *c, cut *by, double *f
         if (result == ENCLOSED_EMPTY) return APART;
         const char *why = shadow_why_unknown(result);
         if (why != NULL) return apart_fail(p, c, INFINITY, why);
-        *by = (cut){parts.along == T ? 2 : side, parts.along % T, parts.at};
+        *by = parts.along < T ? (cut){side, parts.along, parts.at} : cut_of(&parts);
         if (result == ENCLOSED_SPLIT) return DIVIDE;
         if (x.net != NULL) off += net_points(&x, corner[side], mid);
         is_known = is_known && x.net != NULL;
@@ -155,12 +176,12 @@ static apart_outcome try_axis(prover *p, const cell *c, const double n[3], doubl
     if (!is_axis(n)) return DIVIDE;
     const apart_outcome o = apart_by_axis(p, c, n, &tried);
     if (o != DIVIDE) return o;
-    if (!isnan(tried.cut)) {
-        *by = (cut){2, 0, tried.cut};
+    if (tried.cut.along >= 0) {
+        *by = cut_of(&tried.cut);
         *best = INFINITY, *some = true;
     } else if (tried.left > *best || !*some) {
         *best = tried.left;
-        *some = divide_cell(c, &tried, by);
+        *some = divide_cell(p, c, &tried, by);
     }
     return o;
 }
@@ -169,7 +190,7 @@ static apart_outcome test(prover *p, const cell *c, cut *by)
 {
     const bool is_single = c->count[0] == 1 && c->count[1] == 1;
     double n[AXES][3], best = -INFINITY, found = INFINITY;
-    apart_trial tried = {.left = -INFINITY, .cut = NAN};
+    apart_trial tried = {.left = -INFINITY, .cut = {.along = -1}};
     bool some = false;
     apart_outcome o = try_axis(p, c, p->axis, &best, by, &some);
     if (o != DIVIDE || best == INFINITY) return o;
@@ -180,14 +201,16 @@ static apart_outcome test(prover *p, const cell *c, cut *by)
         if (parts.side >= 0) return *by = parts, DIVIDE;
         o = apart_by_centres(p, c, &tried);
         if (o != DIVIDE) return o;
-        if (tried.left > -INFINITY) best = 0, some = divide_cell(c, &tried, by);
+        if (tried.left > -INFINITY) best = 0, some = divide_cell(p, c, &tried, by);
     }
     find_axes(p, c, n);
     for (int m = 0; m < AXES && best < INFINITY; ++m) {
+        if (m == 0 && best == -INFINITY)
+            some = false; /* of the smallest cells, this axis is right */
         o = try_axis(p, c, n[m], &best, by, &some);
         if (o != DIVIDE) return o;
     }
-    if (!some) some = divide_cell(c, &tried, by);
+    if (!some) some = divide_cell(p, c, &tried, by);
     return some ? DIVIDE : apart_fail(p, c, found, "it is too small to be divided");
 }
 
@@ -203,7 +226,13 @@ static bool prove(prover *p, const cell *c, int depth)
     if (o != DIVIDE) return o == APART;
     if (!cell_split(p, c, &by, half))
         return apart_fail(p, c, INFINITY, "it is too small to be divided"), false;
-    return prove(p, &half[0], depth + 1) && prove(p, &half[1], depth + 1);
+    bool proved = true;
+    for (int k = 0; k < 2 && proved; ++k) {
+        const values_kept was = values_halve(p, &by, k);
+        proved = prove(p, &half[k], depth + 1);
+        values_restore(p, &by, &was);
+    }
+    return proved;
 }
 
 void prover_forget(prover *p)
@@ -218,5 +247,6 @@ bool prove_apart(prover *p, const cell *c)
     p->has_guessed = false;
     p->found = INFINITY;
     p->why = "";
+    if (!(p->apart > 0)) return true; /* no distance is below 0 */
     return prove(p, c, 0);
 }

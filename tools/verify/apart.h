@@ -17,6 +17,8 @@ typedef struct cell {
 
 typedef struct prover {
     place side[2];
+    values when;              /* of the cell; T is the cell's */
+    uint64_t *stamps;         /* the last one that was given to values */
     const uint32_t *order[2]; /* NULL: the pieces' own */
     double apart; /* what is to be proved, a little enlarged for maps left out; length */
     unsigned long tests, tests_most; /* of this leaf */
@@ -29,9 +31,10 @@ typedef struct prover {
     bool has_guessed; /* in this leaf */
     cell tried;       /* of the last test, and */
     aim aim;          /* what it tried there, for A */
-    cell worst;       /* where it ended, and */
-    double found;     /* what was found there: two points so near, or INFINITY: nothing but */
-    const char *why;  /* this */
+    cell worst;       /* where it ended, */
+    values worst_when;
+    double found;    /* what was found there: two points so near, or INFINITY: nothing but */
+    const char *why; /* this */
 } prover;
 
 /* Forgets what leaves before have told, so that a leaf's effort depends on no other share. */
@@ -40,15 +43,24 @@ void prover_forget(prover *p);
 /* Makes `c` all of both pieces, if they are single. */
 void cell_begin(const prover *p, cell *c);
 
-/* How a cell is divided: side 0 or 1 along u (0) or v (1), or its pieces; or, side 2, time. NAN: at
- * the middle. */
+/* How a cell is divided: side 0 or 1 along u (0) or v (1), or its pieces; side 2: T; side 3: the
+ * values of clock `along`. NAN: at the middle. */
 typedef struct cut {
     int side, along;
     double at;
 } cut;
 
-/* False: there is nothing to divide. */
+/* False: there is nothing to divide. Of values, the halves are those of the cell. */
 bool cell_split(const prover *p, const cell *c, const cut *by, cell half[2]);
+
+/* Takes one half of the values of a clock, if by->side is 3. `values_restore` takes back what is
+ * returned. */
+typedef struct values_kept {
+    uint64_t stamp;
+    double lo, hi;
+} values_kept;
+values_kept values_halve(prover *p, const cut *by, int half);
+void values_restore(prover *p, const cut *by, const values_kept *was);
 
 /* Proves that no two points of the cell at one time are nearer than p->apart. False: p->worst,
  * found and why tell. */

@@ -14,6 +14,7 @@ enum { STEPS = 96, STEPS_ROUND = 1024 };
 apart_outcome apart_fail(prover *p, const cell *c, double found, const char *why)
 {
     p->worst = *c;
+    p->worst_when = p->when;
     p->found = found;
     p->why = why;
     return STUCK;
@@ -27,16 +28,20 @@ static void take_trial(const prover *p, const aim a[2], const limits r[2], doubl
     const double before = r[0].ends[0] + r[1].ends[0], after = r[0].ends[1] + r[1].ends[1];
     const bool turns = (-before > limit) != (-after > limit);
     tried->time = turns && fabs(after - before) < INFINITY ? 0.5 * fabs(after - before) : 0;
+    for (size_t k = 0; k < p->when.count; ++k) tried->clocks[k] = 0;
     for (int side = 0; side < 2; ++side) {
-        double *most = tried->size[side], bend = 0;
+        double *most = tried->size[side], bend = 0, by_clocks[CLOCKS_MAX] = {0};
         most[U] = most[V] = 0;
         for (size_t k = 0; k < p->areas[side].count; ++k) {
-            double size[VARIABLES];
-            areas_sizes(&p->areas[side], k, &a[side], size);
+            double size[VARIABLES], clocks[CLOCKS_MAX];
+            areas_sizes(&p->areas[side], k, &a[side], size, clocks);
+            for (size_t i = 0; i < p->when.count; ++i)
+                by_clocks[i] = proof_larger(by_clocks[i], clocks[i]);
             for (int j = 0; j < T; ++j) most[j] = proof_larger(most[j], size[j]);
             bend = proof_larger(bend, size[T]);
         }
         tried->time += bend;
+        for (size_t i = 0; i < p->when.count; ++i) tried->clocks[i] += by_clocks[i];
         tried->width[side] = r[side].upper[0] - r[side].least;
     }
 }
@@ -96,14 +101,14 @@ static apart_outcome try_aims(prover *p, const cell *c, const aim a[2], double c
     p->tried = *c;
     p->aim = a[0];
     tried->left = -INFINITY;
-    tried->cut = NAN;
+    tried->cut.along = -1;
     for (int side = 0; side < 2; ++side) {
         const char *why = begin_areas(p, c, side, &a[side]);
         if (why != NULL) return apart_fail(p, c, INFINITY, why);
-        tried->cut = isnan(p->areas[side].cut) ? tried->cut : p->areas[side].cut;
+        if (p->areas[side].cut.along >= 0) tried->cut = p->areas[side].cut;
     }
     for (int step = 0;; ++step) {
-        if (!isnan(tried->cut)) return DIVIDE;
+        if (tried->cut.along >= 0) return DIVIDE;
         if (p->areas[0].count == 0 || p->areas[1].count == 0) return APART; /* it does not exist */
         const limits r[2] = {areas_limits(&p->areas[0]), areas_limits(&p->areas[1])};
         const margin m = take_margin(r, limit);

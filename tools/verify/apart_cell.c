@@ -38,6 +38,10 @@ bool cell_split(const prover *p, const cell *c, const cut *by, cell half[2])
 {
     const int side = by->side, along = by->along;
     half[0] = half[1] = *c;
+    if (side == 3) {
+        double unused;
+        return halve(p->when.lo[along], p->when.hi[along], by->at, &unused, &unused);
+    }
     if (side == 2) return halve(c->t[0], c->t[1], by->at, &half[0].t[1], &half[1].t[0]);
     if (c->count[side] > 1) {
         half[0].count[side] = c->count[side] / 2;
@@ -49,6 +53,22 @@ bool cell_split(const prover *p, const cell *c, const cut *by, cell half[2])
     }
     return halve(c->lo[side][along], c->hi[side][along], by->at, &half[0].hi[side][along],
                  &half[1].lo[side][along]);
+}
+
+values_kept values_halve(prover *p, const cut *by, int half)
+{
+    double *lo = &p->when.lo[by->along], *hi = &p->when.hi[by->along];
+    const values_kept was = {p->when.stamp, *lo, *hi};
+    if (by->side != 3) return was;
+    *(half == 0 ? hi : lo) = isnan(by->at) ? middle(*lo, *hi) : by->at;
+    p->when.stamp = ++*p->stamps;
+    return was;
+}
+
+void values_restore(prover *p, const cut *by, const values_kept *was)
+{
+    p->when.stamp = was->stamp;
+    if (by->side == 3) p->when.lo[by->along] = was->lo, p->when.hi[by->along] = was->hi;
 }
 
 static box3 box_of(const cell *c, int side)

@@ -15,8 +15,9 @@ typedef struct apart_trial {
     double left;       /* below 0: what is missing, by what is left over between known points */
     double size[2][2]; /* a piece's dependence on u and v, at most, about */
     double time;       /* the dependence of both on time */
-    double width[2];   /* of the bounds of each side */
-    double cut;        /* a time at which the cell has to be divided; NAN: none */
+    double clocks[CLOCKS_MAX]; /* and on the values of clocks */
+    double width[2];           /* of the bounds of each side */
+    split cut; /* where the cell has to be divided, by T or a clock; along < 0: nowhere */
 } apart_trial;
 
 /* Returns piece k of a side, in the order of the prover. */

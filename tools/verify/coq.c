@@ -39,7 +39,8 @@ static size_t draw(coq *q, size_t below)
 static bool is_told(const place *of, const box3 *where)
 {
     const part **parts = malloc((of->maps + 1) * sizeof *parts);
-    const bool told = parts != NULL && coq_find_parts(of, where, parts);
+    bool told = parts != NULL && coq_find_parts(of, where, parts);
+    for (size_t k = 0; k <= of->maps; ++k) told = told && place_follows_main(of, k);
     free(parts);
     return told;
 }
@@ -252,10 +253,10 @@ static void put_theorem(FILE *to, const goal *g, const side_text s[2])
         fputs(") ^ 2", to);
     }
     fputs(".\nProof. intros; apply (parted", to);
-    const double values[] = {g->n[0], g->n[1], g->n[2], g->upper, g->lower};
-    for (size_t k = 0; k < sizeof values / sizeof *values; ++k) {
+    const double numbers[] = {g->n[0], g->n[1], g->n[2], g->upper, g->lower};
+    for (size_t k = 0; k < sizeof numbers / sizeof *numbers; ++k) {
         fputc(' ', to);
-        coq_put_number(to, values[k]);
+        coq_put_number(to, numbers[k]);
     }
     fputs(" (", to);
     coq_put_number(to, g->slope);

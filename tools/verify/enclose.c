@@ -39,15 +39,33 @@ const piece *enclose_piece(const place *p, size_t stage_index)
     return &g->pieces[stage_index == 0 ? p->piece : 0];
 }
 
+box3 place_box(const place *p, size_t stage_index, const box3 *where)
+{
+    const size_t clock = p->of->stages[p->chain->stages[stage_index]].clock;
+    box3 own = *where;
+    if (clock != p->when->main) own.lo[T] = p->when->lo[clock], own.hi[T] = p->when->hi[clock];
+    return own;
+}
+
 /* Finds the part of a piece in which the whole box is. Lemma. Where there is none and no end of a
  * part is inside of the box, each part has at most a face in common with it; then neighbouring
  * boxes hold that face, since parts have a size (statement_stage.c), or it is an end of the claim's
  * times (touches_end), or nothing is there. */
-enclosed enclose_choose(const piece *p, const box3 *b, const part **found, split *divide)
+enclosed enclose_choose_part(const piece *all, const box3 *own, const part **found, split *divide)
 {
-    for (size_t k = 0; k < p->count; ++k)
-        if (holds(&p->parts[k], b)) return *found = &p->parts[k], ENCLOSED;
-    return divides(p, b, divide) ? ENCLOSED_SPLIT : ENCLOSED_EMPTY;
+    for (size_t k = 0; k < all->count; ++k)
+        if (holds(&all->parts[k], own)) return *found = &all->parts[k], ENCLOSED;
+    return divides(all, own, divide) ? ENCLOSED_SPLIT : ENCLOSED_EMPTY;
+}
+
+enclosed enclose_choose(const place *p, size_t stage_index, const box3 *where, const part **found,
+                        split *divide)
+{
+    const box3 own = place_box(p, stage_index, where);
+    const enclosed result = enclose_choose_part(enclose_piece(p, stage_index), &own, found, divide);
+    if (result == ENCLOSED_SPLIT && divide->along == T && !place_follows_main(p, stage_index))
+        divide->along = VARIABLES + (int)p->of->stages[p->chain->stages[stage_index]].clock;
+    return result;
 }
 
 /* Returns the next part after `p` that the whole box is in, or NULL: boxes without a size, and ends
@@ -63,9 +81,10 @@ const part *enclose_next_part(const piece *all, const part *p, const box3 *b)
  * box has a face in common with it: no neighbouring box holds that face. */
 static bool touches_end(const place *p, const piece *all, const box3 *b)
 {
+    const scene_clock *clock = &p->of->clocks[p->of->stages[p->chain->stages[0]].clock];
     for (size_t k = 0; k < all->count; ++k) {
         const part *q = &all->parts[k];
-        bool meets = q->lo[T] == p->of->to || q->hi[T] == p->of->from;
+        bool meets = q->lo[T] == clock->hi || q->hi[T] == clock->lo;
         for (int j = 0; j < VARIABLES; ++j)
             meets = meets && q->lo[j] <= b->hi[j] && b->lo[j] <= q->hi[j];
         if (meets) return true;
@@ -76,14 +95,15 @@ static bool touches_end(const place *p, const piece *all, const box3 *b)
 enclosed enclose_part(const place *p, const box3 *where, const part **found, split *divide)
 {
     const piece *all = enclose_piece(p, 0);
-    const enclosed result = enclose_choose(all, where, found, divide);
-    return result == ENCLOSED_EMPTY && touches_end(p, all, where) ? ENCLOSED_UNSAID : result;
+    const box3 own = place_box(p, 0, where);
+    const enclosed result = enclose_choose(p, 0, where, found, divide);
+    return result == ENCLOSED_EMPTY && touches_end(p, all, &own) ? ENCLOSED_UNSAID : result;
 }
 
 /* --- Chains ----------------------------------------------------------------------------------- */
 
-/* Computes a formula of an instance. Steps whose variables have not changed since the last time are
- * not computed again: most steps of a motion depend on time alone. */
+/* Computes a formula of an instance over its own box. Steps whose variables have not changed since
+ * the last time are not computed again: most steps of a motion depend on time alone. */
 static void compute_part(const place *p, size_t stage_index, const formula *f, const box3 *where,
                          const double at[3], formula_boxes *given, jet out[3], jet centre[3])
 {
@@ -108,17 +128,22 @@ static void compute_part(const place *p, size_t stage_index, const formula *f, c
     formula_jets_about(f, given, m->value, out, centre);
 }
 
-/* Computes a stage from its first part that the box is in, and from all others that it is in. */
+/* Computes a stage from its first part that the box is in, and from all others that it is in.
+ * Lemma. A t that is the constant jet of all values of a clock, in the box and at its point, makes
+ * jets that hold for each of the values: what encloses a function does so for each constant. */
 static void compute(const place *p, size_t stage_index, const part *first, const box3 *in,
                     const box3 *where, const double at[3], formula_boxes *given, jet out[3],
                     jet centre[3])
 {
-    compute_part(p, stage_index, first->f, where, at, given, out, centre);
+    const box3 own = place_box(p, stage_index, where), own_in = place_box(p, stage_index, in);
+    const bool follows = place_follows_main(p, stage_index);
+    const double own_at[3] = {at[0], at[1], follows ? at[2] : INFINITY};
+    compute_part(p, stage_index, first->f, &own, own_at, given, out, centre);
     const piece *all = enclose_piece(p, stage_index);
-    for (const part *q = enclose_next_part(all, first, in); q != NULL;
-         q = enclose_next_part(all, q, in)) {
+    for (const part *q = enclose_next_part(all, first, &own_in); q != NULL;
+         q = enclose_next_part(all, q, &own_in)) {
         jet out2[3], centre2[3];
-        compute_part(p, stage_index, q->f, where, at, given, out2, centre2);
+        compute_part(p, stage_index, q->f, &own, own_at, given, out2, centre2);
         for (int i = 0; i < 3; ++i) {
             out[i] = jet_hull(&out[i], &out2[i]);
             centre[i] = jet_hull(&centre[i], &centre2[i]);
@@ -145,6 +170,27 @@ static void forget(jet x[3])
     }
 }
 
+/* Whether a stage follows a clock that has several values. */
+static bool has_blur(const place *p)
+{
+    for (size_t k = 0; k <= p->maps; ++k) {
+        const size_t clock = p->of->stages[p->chain->stages[k]].clock;
+        if (clock != p->when->main && p->when->lo[clock] < p->when->hi[clock]) return true;
+    }
+    return false;
+}
+
+/* The t of a stage, over the box and at its point. */
+static void take_clock(const place *p, size_t stage_index, const box3 *where, const jet *wide_t,
+                       const jet *narrow_t, jet *wide, jet *narrow)
+{
+    const box3 own = place_box(p, stage_index, where);
+    *wide = *wide_t, *narrow = *narrow_t;
+    if (place_follows_main(p, stage_index)) return;
+    *wide = *narrow = jet_constant(VARIABLES, ld_interval_make(own.lo[T], own.hi[T]));
+    narrow->bends = 0;
+}
+
 enclosed enclose(const place *p, const box3 *where, const double at[3], jet out[3], jet centre[3],
                  split *divide)
 {
@@ -161,18 +207,24 @@ enclosed enclose(const place *p, const box3 *where, const double at[3], jet out[
     const part *found;
     enclosed result = enclose_part(p, where, &found, divide);
     if (result != ENCLOSED) return result;
+    const jet wide_t = wide[T], narrow_t = narrow[T];
+    take_clock(p, 0, where, &wide_t, &narrow_t, &wide[T], &narrow[T]);
     compute(p, 0, found, where, where, at, &given, out, centre);
     bool undefined = is_undefined(out);
-    wide[3] = wide[T], narrow[3] = narrow[T];
     const box3 times = {{-INFINITY, -INFINITY, where->lo[T]}, {INFINITY, INFINITY, where->hi[T]}};
     for (size_t k = 1; k <= p->maps && !is_undefined(centre); ++k) {
         for (int i = 0; i < 3; ++i) wide[i] = out[i], narrow[i] = centre[i];
-        result = enclose_choose(enclose_piece(p, k), &times, &found, divide);
+        take_clock(p, k, where, &wide_t, &narrow_t, &wide[3], &narrow[3]);
+        result = enclose_choose(p, k, &times, &found, divide);
         if (result != ENCLOSED) return result == ENCLOSED_EMPTY ? ENCLOSED_UNSAID : result;
         compute(p, k, found, &times, where, at, &given, out, centre);
         undefined = undefined || is_undefined(out);
     }
-    if (is_undefined(centre)) return ENCLOSED_UNDEFINED;
+    if (is_undefined(centre)) {
+        if (!has_blur(p)) return ENCLOSED_UNDEFINED;
+        forget(centre); /* perhaps only at some values of a clock */
+        undefined = true;
+    }
     if (undefined) forget(out);
     return ENCLOSED;
 }

@@ -12,6 +12,14 @@
 
 enum { U, V, T, VARIABLES };
 
+/* The values of clocks. One of them, `main`, is the T of boxes; what follows another has all its
+ * values from lo to hi at once. */
+typedef struct values {
+    size_t count, main;
+    uint64_t stamp; /* of these ranges, and of no others */
+    double lo[CLOCKS_MAX], hi[CLOCKS_MAX];
+} values;
+
 typedef enum enclosed {
     ENCLOSED,
     ENCLOSED_EMPTY,    /* the surface does not exist there */
@@ -25,7 +33,7 @@ typedef struct box3 {
 } box3;
 
 typedef struct split {
-    int along;
+    int along; /* U, V, T, or VARIABLES + a clock other than T */
     double at;
 } split;
 
@@ -43,7 +51,17 @@ typedef struct place {
     size_t piece, maps; /* maps that are applied: the first ones */
     jet *room;          /* for twice the steps of any formula */
     memo *memos;        /* of each instance; NULL: nothing is kept */
+    const values *when; /* not NULL */
 } place;
+
+/* Whether T is what the stage follows. */
+static inline bool place_follows_main(const place *p, size_t stage_index)
+{
+    return p->of->stages[p->chain->stages[stage_index]].clock == p->when->main;
+}
+
+/* The box, with the values of the stage's clock for T. */
+box3 place_box(const place *p, size_t stage_index, const box3 *where);
 
 /* The middle of an interval, within it. */
 static inline double middle(double lo, double hi)
@@ -63,8 +81,12 @@ void piece_box(const place *p, box3 *all);
 /* The piece of stage k of a chain. */
 const piece *enclose_piece(const place *p, size_t stage_index);
 
-/* Finds the part of a piece in which a box is; *divide where it is in several. */
-enclosed enclose_choose(const piece *p, const box3 *b, const part **found, split *divide);
+/* Finds the part of the piece of a stage in which a box is; *divide where it is in several. */
+enclosed enclose_choose(const place *p, size_t stage_index, const box3 *where, const part **found,
+                        split *divide);
+
+/* Finds the part of a piece in which its own box is. */
+enclosed enclose_choose_part(const piece *all, const box3 *own, const part **found, split *divide);
 
 /* Returns the next part after `p` that the whole box is in, or NULL: boxes without a size, and ends
  * that are known to an ulp, may be in several. */

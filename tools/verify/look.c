@@ -5,6 +5,7 @@
 #include "tools/verify/look.h"
 
 #include <stdint.h>
+#include <stdlib.h>
 #include <string.h>
 
 static size_t mixed(uintptr_t what, const double numbers[], size_t count)
@@ -18,6 +19,11 @@ static size_t mixed(uintptr_t what, const double numbers[], size_t count)
     return sum >> 32;
 }
 
+static uintptr_t place_key(const place *of)
+{
+    return (uintptr_t)of->chain + 31 * of->maps + (uintptr_t)(of->when->stamp * 1000003);
+}
+
 static size_t mixed_box(uintptr_t what, const box3 *b)
 {
     const double numbers[6] = {b->lo[0], b->lo[1], b->lo[2], b->hi[0], b->hi[1], b->hi[2]};
@@ -28,11 +34,12 @@ static bool is_same(const box3 *a, const box3 *b) { return memcmp(a, b, sizeof *
 
 const kept *look_jets(memory *all, const place *of, const box3 *where)
 {
-    const size_t at = mixed_box((uintptr_t)of->chain + 31 * of->maps + 977 * of->piece, where);
+    const size_t at = mixed_box(place_key(of) + 977 * of->piece, where);
     kept *k = &all->jets[at & (KEPT - 1)];
     if (k->chain == of->chain && k->piece == of->piece && k->maps == of->maps &&
-        is_same(&k->where, where))
+        k->stamp == of->when->stamp && is_same(&k->where, where))
         return k;
+    k->stamp = of->when->stamp;
     k->chain = of->chain;
     k->piece = of->piece;
     k->maps = of->maps;
@@ -45,10 +52,14 @@ const kept *look_jets(memory *all, const place *of, const box3 *where)
 static const kept_motion *look_motion(memory *all, const place *of, double lo, double hi)
 {
     const double times[2] = {lo, hi};
-    const size_t at = mixed((uintptr_t)of->chain + 31 * of->maps, times, 2);
+    const size_t at = mixed(place_key(of), times, 2);
     kept_motion *k = &all->motions[at & (KEPT_MOTIONS - 1)];
-    if (k->chain == of->chain && k->maps == of->maps && k->lo == lo && k->hi == hi) return k;
-    *k = (kept_motion){.chain = of->chain, .maps = of->maps, .lo = lo, .hi = hi};
+    if (k->chain == of->chain && k->maps == of->maps && k->stamp == of->when->stamp &&
+        k->lo == lo && k->hi == hi)
+        return k;
+    free(k->motion.ways);
+    *k = (kept_motion){
+        .chain = of->chain, .maps = of->maps, .stamp = of->when->stamp, .lo = lo, .hi = hi};
     k->result = motion_bound(of, lo, hi, &k->motion, &k->is_affine, &k->divide);
     return k;
 }
@@ -76,16 +87,20 @@ enclosed look_net(memory *all, const place *of, const box3 *where, form *found, 
         if (m->result != ENCLOSED) return m->result;
         if (m->is_affine) found->motion = &m->motion, bare.maps = 0;
     }
-    const bool alone = enclose_next_part(enclose_piece(of, 0), shape, where) == NULL;
-    const bool exact = shape->net != NULL && alone && bare.maps == 0;
+    const box3 own = place_box(of, 0, where);
+    const bool alone = enclose_next_part(enclose_piece(of, 0), shape, &own) == NULL;
+    const bool follows = place_follows_main(of, 0) || !shape->is_moving;
+    const bool exact = shape->net != NULL && alone && bare.maps == 0 && follows;
+    const uint64_t stamp = exact ? 0 : of->when->stamp;
     box3 key = *where;
     if (!shape->is_moving && alone && bare.maps == 0) key.lo[T] = key.hi[T] = 0;
     const chain *moved = bare.maps > 0 ? of->chain : NULL;
-    const size_t at = mixed_box((uintptr_t)shape + (uintptr_t)moved + 31 * bare.maps, &key);
+    const size_t at = mixed_box(
+        (uintptr_t)shape + (uintptr_t)moved + 31 * bare.maps + (uintptr_t)(stamp * 1000003), &key);
     kept_net *k = &all->nets[at & (KEPT_NETS - 1)];
-    if (k->part != shape || k->chain != moved || k->maps != bare.maps ||
+    if (k->part != shape || k->chain != moved || k->maps != bare.maps || k->stamp != stamp ||
         !is_same(&k->where, &key)) {
-        k->part = shape, k->chain = moved, k->maps = bare.maps, k->where = key;
+        k->part = shape, k->chain = moved, k->maps = bare.maps, k->stamp = stamp, k->where = key;
         k->result = ENCLOSED;
         if (!exact || !net_restrict(shape->net, where->lo, where->hi, &k->net))
             take_jets(&bare, where, k);
@@ -93,4 +108,10 @@ enclosed look_net(memory *all, const place *of, const box3 *where, form *found, 
     *divide = k->divide;
     if (k->result == ENCLOSED && k->net.n[0] > 0) found->net = &k->net;
     return k->result;
+}
+
+void look_free(memory *all)
+{
+    for (size_t k = 0; k < KEPT_MOTIONS && all != NULL; ++k) free(all->motions[k].motion.ways);
+    free(all);
 }

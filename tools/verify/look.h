@@ -12,6 +12,7 @@ enum { KEPT = 1024, KEPT_NETS = 1024, KEPT_MOTIONS = 256 }; /* powers of 2 */
 typedef struct kept {
     const chain *chain; /* NULL: none */
     size_t piece, maps;
+    uint64_t stamp; /* of the values of clocks, here and below */
     box3 where;
     enclosed result;
     split divide;
@@ -24,7 +25,8 @@ typedef struct kept_net {
     const part *part;   /* NULL: none */
     const chain *chain; /* NULL: before all maps */
     size_t maps;
-    box3 where; /* of t [0, 0], where the part does not move by itself */
+    uint64_t stamp; /* 0, where it depends on none but T */
+    box3 where;     /* of t [0, 0], where the part does not move by itself */
     enclosed result;
     split divide;
     net net;
@@ -33,11 +35,12 @@ typedef struct kept_net {
 typedef struct kept_motion {
     const chain *chain; /* NULL: none */
     size_t maps;
+    uint64_t stamp;
     double lo, hi;
     enclosed result;
     split divide;
     bool is_affine;
-    motion motion;
+    motion motion; /* its ways to be freed */
 } kept_motion;
 
 typedef struct memory {
@@ -45,6 +48,8 @@ typedef struct memory {
     kept_net nets[KEPT_NETS];
     kept_motion motions[KEPT_MOTIONS];
 } memory;
+
+void look_free(memory *all); /* may be NULL */
 
 /* What is found may be overwritten by another call. */
 

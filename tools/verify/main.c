@@ -51,10 +51,17 @@ static int report(const request *asked, const statement *s, const outcome *all)
     printf("holds%s%s\n", all->assumed[0] != '\0' ? " assuming " : "", all->assumed);
     if (asked->quiet) return HOLDS;
     printf("%s: no two points nearer than %s", s->verdict, exact(s->apart).text);
-    printf(" from t = %s", exact(s->from).text);
-    printf(" to %s\n", exact(s->to).text);
-    if (s->has_points)
-        printf("two points within %s at t = %s\n", exact(s->within).text, exact(s->t).text);
+    for (size_t k = 0; k < s->clock_count; ++k) {
+        if (k == 0) printf(" from t = %s", exact(s->clocks[0].lo).text);
+        if (k > 0) printf(", %s from %s", s->clocks[k].name, exact(s->clocks[k].lo).text);
+        printf(" to %s", exact(s->clocks[k].hi).text);
+    }
+    if (s->has_points) printf("\ntwo points within %s at t", exact(s->within).text);
+    for (size_t k = 0; k < s->clock_count && s->has_points; ++k) {
+        if (k > 0) printf(", %s", s->clocks[k].name);
+        printf(" = %s", exact(s->clocks[k].at).text);
+    }
+    printf("\n");
     if (s->ignored_count > 0)
         say_count("ignored pair", "ignored pairs", s->ignored_count, " of bodies\n");
     say_count("pair", "pairs", all->pairs, " of surfaces, ");

@@ -7,6 +7,8 @@
 #include <math.h>
 #include <stdlib.h>
 
+#include "tools/verify/net_internal.h"
+
 /* --- Affine maps ------------------------------------------------------------------------------ */
 
 /* Lemma. A second derivative by two of x, y and z that is exactly 0 for all x, y and z (the whole
@@ -24,10 +26,10 @@ static bool is_affine(const part *p, jet room[])
 }
 
 /* Notes what a shape is. A part without an end in time is looked at while the claim lasts. */
-static void prepare_shape(const statement *s, part *p)
+static void prepare_shape(const scene_clock *t, part *p)
 {
-    const double lo[3] = {p->lo[U], p->lo[V], p->lo[T] > s->from ? p->lo[T] : s->from};
-    const double hi[3] = {p->hi[U], p->hi[V], p->hi[T] < s->to ? p->hi[T] : s->to};
+    const double lo[3] = {p->lo[U], p->lo[V], p->lo[T] > t->lo ? p->lo[T] : t->lo};
+    const double hi[3] = {p->hi[U], p->hi[V], p->hi[T] < t->hi ? p->hi[T] : t->hi};
     p->is_moving = formula_depends(p->f, T);
     if (lo[T] <= hi[T]) p->net = net_of_formula(p->f, lo, hi);
 }
@@ -39,7 +41,7 @@ void motion_prepare(statement *s)
         for (size_t i = 0; i < s->stages[k].count; ++i)
             for (size_t j = 0; j < s->stages[k].pieces[i].count; ++j) {
                 part *p = &s->stages[k].pieces[i].parts[j];
-                if (!s->stages[k].is_map) prepare_shape(s, p);
+                if (!s->stages[k].is_map) prepare_shape(&s->clocks[s->stages[k].clock], p);
                 p->is_affine = s->stages[k].is_map && room != NULL && is_affine(p, room);
             }
     free(room);
@@ -71,58 +73,206 @@ static void take_affine(const part *p, double lo, double hi, jet room[], affine 
     }
 }
 
-static jet sum_of_products(const jet l[4], const jet r[3][4], int c)
+static jet sum_of_products(const jet l[4], const jet r[3][4], int c, bool shifts)
 {
     jet sum = jet_mul(&l[0], &r[0][c]);
     for (int k = 1; k < 3; ++k) {
         const jet term = jet_mul(&l[k], &r[k][c]);
         sum = jet_add(&sum, &term);
     }
-    return c == 3 ? jet_add(&sum, &l[3]) : sum;
+    return c == 3 && shifts ? jet_add(&sum, &l[3]) : sum;
 }
 
-/* Applies `then` after `first`. */
-static void compose(const affine *then, affine *first)
+/* Applies `then` after `first`; without its shift, if `first` is a way. */
+static void compose(const affine *then, affine *first, bool shifts)
 {
     const affine was = *first;
     for (int i = 0; i < 3; ++i)
         for (int c = 0; c < 4; ++c) {
-            first->wide[i][c] = sum_of_products(then->wide[i], was.wide, c);
-            first->centre[i][c] = sum_of_products(then->centre[i], was.centre, c);
+            first->wide[i][c] = sum_of_products(then->wide[i], was.wide, c, shifts);
+            first->centre[i][c] = sum_of_products(then->centre[i], was.centre, c, shifts);
             jet_narrow(&first->wide[i][c], &first->centre[i][c], first->offset);
         }
 }
 
-/* The affine map of a whole chain. */
-static enclosed take_chain(const place *p, double lo, double hi, affine *all, bool *all_affine,
+/* --- Other clocks ----------------------------------------------------------------------------- */
+
+/* What an affine map is at all values of its clock: middle + s slope, |s| <= 1, but for `rest`. */
+typedef struct line_map {
+    affine middle, slope; /* constants */
+    double rest[3][4];
+} line_map;
+
+static void take_line(const part *p, double lo, double hi, const affine *all, jet room[],
+                      line_map *to)
+{
+    affine a;
+    take_affine(p, lo, hi, room, &a);
+    to->middle = to->slope = *all; /* for the offset */
+    for (int i = 0; i < 3; ++i)
+        for (int c = 0; c < 4; ++c) {
+            double line[2];
+            motion_line_of_jets(&a.wide[i][c], &a.centre[i][c], lo, hi, line, &to->rest[i][c]);
+            to->middle.wide[i][c] = to->middle.centre[i][c] =
+                jet_constant(1, ld_interval_of(line[0]));
+            to->slope.wide[i][c] = to->slope.centre[i][c] =
+                jet_constant(1, ld_interval_of(line[1]));
+        }
+}
+
+/* The affine map of a chain: base + the sum of s_k ways[k].of, |s_k| <= 1, but for `rest`, at each
+ * time. Each s_k belongs to one clock. */
+typedef struct layered {
+    affine base;
+    struct {
+        size_t clock;
+        affine of;
+    } * ways; /* to be freed */
+    size_t count;
+    double rest[3][4];
+} layered;
+
+static double size_of(const affine *x, int i, int c) { return ld_interval_mag(x->wide[i][c].v); }
+
+/* Lemma. For `then` = M + s L but for e, |s| <= 1, and x = base + ways but for rest, then(x) is
+ * M base + (M ways + s L base) but for |M| rest + |L| (|ways| + rest) + e (|base| + |ways| + rest),
+ * and for e alone of the shift. */
+static void grow_rest(const affine *m, const line_map *line, layered *x)
+{
+    double was[3][4], moved[3][4];
+    for (int l = 0; l < 3; ++l)
+        for (int c = 0; c < 4; ++c) {
+            was[l][c] = moved[l][c] = x->rest[l][c];
+            for (size_t k = 0; k < x->count; ++k) moved[l][c] += size_of(&x->ways[k].of, l, c);
+        }
+    for (int i = 0; i < 3; ++i)
+        for (int c = 0; c < 4; ++c) {
+            double sum = line != NULL && c == 3 ? line->rest[i][3] : 0;
+            for (int l = 0; l < 3; ++l) {
+                sum += size_of(m, i, l) * was[l][c];
+                if (line == NULL) continue;
+                sum += size_of(&line->slope, i, l) * moved[l][c];
+                sum += line->rest[i][l] * (size_of(&x->base, l, c) + moved[l][c]);
+            }
+            x->rest[i][c] = sum > 0 || isnan(sum) ? net_padded(sum) : 0;
+            if (isnan(sum)) x->rest[i][c] = INFINITY;
+        }
+}
+
+static void add_slope(const affine *slope, const affine *base, affine *way)
+{
+    affine more = *base;
+    compose(slope, &more, true);
+    for (int i = 0; i < 3; ++i)
+        for (int c = 0; c < 4; ++c) {
+            way->wide[i][c] = jet_add(&way->wide[i][c], &more.wide[i][c]);
+            way->centre[i][c] = jet_add(&way->centre[i][c], &more.centre[i][c]);
+        }
+}
+
+static void set_constant(affine *x, bool is_one)
+{
+    for (int i = 0; i < 3; ++i)
+        for (int c = 0; c < 4; ++c)
+            x->wide[i][c] = x->centre[i][c] = jet_constant(1, ld_interval_of(is_one && i == c));
+}
+
+/* Applies a map that follows T, or (line not NULL) another clock. */
+static void apply(const affine *m, const line_map *line, size_t clock, layered *x)
+{
+    if (line != NULL || x->count > 0) grow_rest(m, line, x);
+    for (size_t k = 0; k < x->count; ++k) compose(m, &x->ways[k].of, false);
+    if (line != NULL) {
+        size_t k = 0;
+        while (k < x->count && x->ways[k].clock != clock) ++k;
+        if (k == x->count) {
+            x->ways[x->count++].clock = clock;
+            x->ways[k].of = x->base;
+            set_constant(&x->ways[k].of, false);
+        }
+        add_slope(&line->slope, &x->base, &x->ways[k].of);
+    }
+    compose(m, &x->base, true);
+}
+
+static void apply_stage(const place *p, size_t k, const part *found, double lo, double hi,
+                        layered *x)
+{
+    const size_t clock = p->of->stages[p->chain->stages[k]].clock;
+    affine next;
+    line_map line;
+    if (place_follows_main(p, k)) {
+        take_affine(found, lo, hi, p->room, k == 1 ? &x->base : &next);
+        if (k > 1) apply(&next, NULL, 0, x);
+        return;
+    }
+    if (k == 1) {
+        const double at = middle(lo, hi);
+        x->base.offset[0] = ld_interval_sub(ld_interval_make(lo, hi), ld_interval_of(at));
+        set_constant(&x->base, true);
+    }
+    take_line(found, p->when->lo[clock], p->when->hi[clock], &x->base, p->room, &line);
+    apply(&line.middle, &line, clock, x);
+}
+
+/* The affine map of a whole chain, whose ways the caller frees. */
+static enclosed take_chain(const place *p, double lo, double hi, layered *all, bool *all_affine,
                            split *divide)
 {
     const box3 times = {{-INFINITY, -INFINITY, lo}, {INFINITY, INFINITY, hi}};
-    affine next;
-    *all_affine = p->maps > 0;
+    size_t others = 0;
+    for (size_t k = 1; k <= p->maps; ++k) others += !place_follows_main(p, k);
+    *all = (layered){.ways = others > 0 ? malloc(others * sizeof *all->ways) : NULL};
+    *all_affine = p->maps > 0 && (others == 0 || all->ways != NULL);
     for (size_t k = 1; k <= p->maps; ++k) {
         const part *found;
         const piece *map = enclose_piece(p, k);
-        const enclosed result = enclose_choose(map, &times, &found, divide);
+        const box3 own = place_box(p, k, &times);
+        const enclosed result = enclose_choose(p, k, &times, &found, divide);
         if (result != ENCLOSED) return result == ENCLOSED_EMPTY ? ENCLOSED_UNSAID : result;
         *all_affine =
-            *all_affine && found->is_affine && enclose_next_part(map, found, &times) == NULL;
-        if (!*all_affine) continue;
-        take_affine(found, lo, hi, p->room, k == 1 ? all : &next);
-        if (k > 1) compose(&next, all);
+            *all_affine && found->is_affine && enclose_next_part(map, found, &own) == NULL;
+        if (*all_affine) apply_stage(p, k, found, lo, hi, all);
     }
     return ENCLOSED;
+}
+
+/* Writes the numbers of base and ways; false: they are not finite, or there is no memory. */
+static bool take_numbers(const layered *all, double lo, double hi, motion *m)
+{
+    double error, size;
+    bool known = true;
+    if (all->count > 0) m->ways = malloc(all->count * sizeof *m->ways);
+    if (all->count > 0 && m->ways == NULL) return false;
+    m->way_count = all->count;
+    for (size_t k = 0; k < all->count; ++k) m->ways[k].clock = all->ways[k].clock;
+    for (int i = 0; i < 3; ++i)
+        for (int c = 0; c < 4; ++c) {
+            known = known && motion_of_jets(&all->base.wide[i][c], &all->base.centre[i][c], lo, hi,
+                                            m->m[i][c], &m->error[i][c], &m->size[i][c]);
+            if (all->count == 0) continue;
+            for (size_t k = 0; k < all->count && known; ++k) {
+                const affine *way = &all->ways[k].of;
+                known = motion_of_jets(&way->wide[i][c], &way->centre[i][c], lo, hi,
+                                       m->ways[k].m[i][c], &error, &size);
+                m->error[i][c] += error;
+                m->size[i][c] += size;
+            }
+            m->blur[i][c] = all->rest[i][c];
+            m->error[i][c] = net_padded(m->error[i][c] + all->rest[i][c]);
+            m->size[i][c] = net_padded(m->size[i][c] + all->rest[i][c]);
+            known = known && m->size[i][c] < INFINITY;
+        }
+    return known;
 }
 
 enclosed motion_bound(const place *p, double lo, double hi, motion *m, bool *all_affine,
                       split *divide)
 {
-    affine all;
+    layered all;
     const enclosed result = take_chain(p, lo, hi, &all, all_affine, divide);
-    for (int i = 0; i < 3; ++i)
-        for (int c = 0; c < 4 && *all_affine && result == ENCLOSED; ++c)
-            *all_affine = motion_of_jets(&all.wide[i][c], &all.centre[i][c], lo, hi, m->m[i][c],
-                                         &m->error[i][c], &m->size[i][c]);
+    if (*all_affine && result == ENCLOSED) *all_affine = take_numbers(&all, lo, hi, m);
+    free(all.ways);
     return result;
 }
 
@@ -144,21 +294,24 @@ static jet form_of(const jet n[3][4], ld_interval e[3][3], int i, int k)
 static bool take_form(const place *p, double lo, double hi, const double c[3], ld_interval e[3][3],
                       ld_interval g[4][4])
 {
-    affine n;
+    layered all;
+    affine *n = &all.base;
     bool all_affine;
     split unused;
-    if (take_chain(p, lo, hi, &n, &all_affine, &unused) != ENCLOSED || !all_affine) return false;
-    for (int i = 0; i < 3; ++i) {
+    const enclosed result = take_chain(p, lo, hi, &all, &all_affine, &unused);
+    const bool is_one = result == ENCLOSED && all_affine && all.count == 0;
+    for (int i = 0; i < 3 && is_one; ++i) {
         const jet at = jet_constant(1, ld_interval_of(c[i]));
-        n.wide[i][3] = jet_sub(&n.wide[i][3], &at);
-        n.centre[i][3] = jet_sub(&n.centre[i][3], &at);
+        n->wide[i][3] = jet_sub(&n->wide[i][3], &at);
+        n->centre[i][3] = jet_sub(&n->centre[i][3], &at);
     }
-    for (int i = 0; i < 4; ++i)
+    for (int i = 0; i < 4 && is_one; ++i)
         for (int k = 0; k < 4; ++k) {
-            const jet wide = form_of(n.wide, e, i, k), narrow = form_of(n.centre, e, i, k);
-            g[i][k] = jet_values(&wide, &narrow, n.offset);
+            const jet wide = form_of(n->wide, e, i, k), narrow = form_of(n->centre, e, i, k);
+            g[i][k] = jet_values(&wide, &narrow, n->offset);
         }
-    return true;
+    free(all.ways);
+    return is_one;
 }
 
 enum { SLIP_PARTS = 16 };
@@ -229,7 +382,7 @@ static double worst(const piece *p, double lo, double hi, int depth, jet room[])
     const part *found;
     split divide;
     const box3 times = {{-INFINITY, -INFINITY, lo}, {INFINITY, INFINITY, hi}};
-    const enclosed result = enclose_choose(p, &times, &found, &divide);
+    const enclosed result = enclose_choose_part(p, &times, &found, &divide);
     double at = lo + 0.5 * (hi - lo);
     if (result != ENCLOSED && result != ENCLOSED_SPLIT) return INFINITY;
     if (result == ENCLOSED) {

@@ -68,8 +68,10 @@ bool net_take_sizes(net *x)
 
 bool net_restrict(const net *from, const double lo[3], const double hi[3], net *to)
 {
-    for (int j = 0; j < 3; ++j)
-        if (!(from->lo[j] <= lo[j] && lo[j] <= hi[j] && hi[j] <= from->hi[j])) return false;
+    for (int j = 0; j < 3; ++j) /* one point alone holds at all values of the variable */
+        if (!(lo[j] <= hi[j]) ||
+            !(from->n[j] == 1 || (from->lo[j] <= lo[j] && hi[j] <= from->hi[j])))
+            return false;
     memcpy(to, from, net_bytes(from));
     int levels = 0;
     for (int j = 0; j < 3; ++j) levels += restrict_along(to, j, lo[j], hi[j]);
@@ -101,7 +103,7 @@ static void add_product(const double a[3], const double *b, int n, double *sum)
 
 /* n.M and n.d, and what bounds n.x and its error. */
 typedef struct row {
-    double w[4][3], size, error, share[3];
+    double w[4][3], size, error, share[3], blur;
 } row;
 
 /* Lemma. x is off by error[c], M by its errors: n.M x by the sum of |n| |M| error, |n| times the
@@ -114,11 +116,14 @@ static row take_row(const form *x, const double n[3])
         for (int j = 0; j < 3 && m == NULL; ++j) r.share[j] += fabs(n[i]) * x->net->share[i][j];
         r.size += m != NULL ? 0 : fabs(n[i]) * x->net->size[i];
         r.error += m != NULL ? 0 : fabs(n[i]) * x->net->error[i];
+        r.blur += m != NULL ? 0 : fabs(n[i]) * x->net->blur[i];
         for (int c = 0; c < 4 && m != NULL; ++c) {
             const double p = c < 3 ? x->net->size[c] : 1, off = c < 3 ? x->net->error[c] : 0;
             r.size += fabs(n[i]) * m->size[i][c] * p;
             r.error += fabs(n[i]) * (m->size[i][c] * off + m->error[i][c] * p);
-            r.share[2] += fabs(n[i]) * m->error[i][c] * p;
+            r.share[2] += fabs(n[i]) * (m->error[i][c] - m->blur[i][c]) * p;
+            r.blur += fabs(n[i]) * m->blur[i][c] * p;
+            if (c < 3) r.blur += fabs(n[i]) * m->size[i][c] * x->net->blur[c];
             for (int j = 0; j < 3 && c < 3; ++j)
                 r.share[j] += fabs(n[i]) * m->size[i][c] * x->net->share[c][j];
             for (int k = 0; k < 3; ++k) r.w[c][k] += n[i] * m->m[i][c][k];
@@ -144,31 +149,62 @@ static int take_points(const form *x, const double n[3], const row *r, double *g
     return count;
 }
 
+/* Lemma. Each way adds h s to n.x, |s| <= 1, h being a convex combination of what it is for the
+ * control points: no more than the combination of their |h|, the coefficients' by time. Sets
+ * more[i] to the sum of |h| of all ways for coefficient i of the points; returns how many ways. */
+static size_t add_ways(const form *x, const double n[3], int count, double *more, double *way)
+{
+    const motion *m = x->motion;
+    double h[NET_POINTS * NET_TIMES];
+    for (int i = 0; i < count; ++i) more[i] = 0;
+    for (size_t k = 0; m != NULL && k < m->way_count; ++k) {
+        row by = {.size = 0};
+        double most = 0;
+        for (int i = 0; i < 3; ++i)
+            for (int c = 0; c < 4; ++c)
+                for (int l = 0; l < 3; ++l) by.w[c][l] += n[i] * m->ways[k].m[i][c][l];
+        take_points(x, n, &by, h);
+        for (int i = 0; i < count; ++i) {
+            more[i] += fabs(h[i]);
+            most = proof_larger(most, fabs(h[i]));
+        }
+        if (way != NULL) way[k] = most;
+    }
+    return m != NULL ? m->way_count : 0;
+}
+
 /* Lemma. n.x is a convex combination of its control points at each time, whose greatest are thus
  * coefficients of an upper bound. They are off by less than 64 roundings of `size`: 4 of n.M, 3 of
- * a share, 2 of its products, 12 of their sum, 24 of four means, one of the error that is added.
- */
-void net_along(const form *x, const double n[3], reach *r)
+ * a share, 2 of its products, 12 of their sum, 24 of four means, one of the error that is added;
+ * and, since `size` is that with all ways, one for the sum with each way. */
+void net_along(const form *x, const double n[3], reach *r, double *way)
 {
     const row by = take_row(x, n);
     const int times = r->n[2] = take_points(x, n, &by, r->g);
     const int last = x->net->n[0] * x->net->n[1] * times;
-    const double error = r->error = net_padded(by.error + 64 * ROUNDING * net_padded(by.size));
+    double more[NET_POINTS * NET_TIMES];
+    const size_t ways = add_ways(x, n, last, more, way);
+    const double error = r->error =
+        net_padded(by.error + (64 + (double)ways) * ROUNDING * net_padded(by.size));
+    r->blur = by.blur;
     for (int j = 0; j < 3; ++j) r->share[j] = by.share[j];
     r->n[0] = x->net->n[0], r->n[1] = x->net->n[1];
     r->least = INFINITY;
     for (int i = 0; i < last; ++i) r->least = proof_smaller(r->least, r->g[i]);
     for (int k = 0; k < times; ++k) {
-        r->upper[k] = r->g[k];
+        r->upper[k] = r->g[k] + more[k];
         for (int i = k; i < last; i += times)
-            if (r->g[i] > r->upper[k]) r->upper[k] = r->g[i];
+            if (!(r->g[i] + more[i] <= r->upper[k])) r->upper[k] = r->g[i] + more[i];
     }
     const int v = (r->n[1] - 1) * times, u = last - times - v;
     for (int end = 0; end < 2; ++end) {
-        const double *at = r->g + end * (times - 1);
+        const double *at = r->g + end * (times - 1), *by_ways = more + end * (times - 1);
+        const int corners[4] = {0, v, u, u + v};
         double sum = 0;
-        for (int i = 0; i < last; i += times) sum += at[i];
-        r->ends[end] = proof_larger(proof_larger(at[0], at[v]), proof_larger(at[u], at[u + v]));
+        for (int i = 0; i < last; i += times) sum += at[i] + by_ways[i];
+        r->ends[end] = -INFINITY;
+        for (int i = 0; i < 4; ++i)
+            r->ends[end] = proof_larger(r->ends[end], at[corners[i]] + by_ways[corners[i]]);
         r->ends[end] = proof_larger(r->ends[end], sum * times / last);
     }
     raise_degree(r->upper, times - 1);
@@ -181,7 +217,7 @@ double net_points(const form *x, double corner[8][3], double centre[3])
     double error = 0;
     reach r;
     for (int c = 0; c < 3; ++c) {
-        net_along(x, (double[3]){c == 0, c == 1, c == 2}, &r);
+        net_along(x, (double[3]){c == 0, c == 1, c == 2}, &r, NULL);
         const int v = (r.n[1] - 1) * r.n[2], u = (r.n[0] - 1) * r.n[1] * r.n[2], t = r.n[2] - 1;
         const int last = u + v + t;
         for (int k = 0; k < 8; ++k)

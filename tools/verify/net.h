@@ -20,13 +20,24 @@ typedef struct net {
     double error[3];     /* of each control point and of all values, by coordinate */
     double size[3];      /* of the control points and of all values, their errors included */
     double share[3][3];  /* of the error, by coordinate and variable that it is due to, about */
+    double blur[3];      /* of the error, what clocks other than t have made, about */
     double p[3 * NET_POINTS]; /* by coordinate, then u, then v, then t */
 } net;
 
-/* x -> M x + d, whose numbers are polynomials of degree 2 in time, in Bernstein form. */
+/* How a clock changes a motion from the middle to an end of its values. */
+typedef struct motion_way {
+    size_t clock;
+    double m[3][4][3]; /* like those of the motion */
+} motion_way;
+
+/* x -> M x + d, whose numbers are polynomials of degree 2 in time, in Bernstein form: the sum of
+ * those of the motion and, for each way, a factor in [-1, 1] times those of the way. */
 typedef struct motion {
-    double m[3][4][3]; /* by row and column, d being the last one */
-    double error[3][4], size[3][4];
+    double m[3][4][3];              /* by row and column, d being the last one */
+    double error[3][4], size[3][4]; /* with all ways */
+    double blur[3][4];              /* of the error, what clocks of ways have made, about */
+    motion_way *ways;               /* NULL: none */
+    size_t way_count;
 } motion;
 
 /* A net, and its motion over the times of the box; NULL: none. */
@@ -51,6 +62,10 @@ bool net_of_jets(const jet wide[3], const jet centre[3], const double lo[3], con
 bool motion_of_jets(const jet *wide, const jet *centre, double lo, double hi,
                     double coefficients[3], double *error, double *size);
 
+/* Bounds such a number by line[0] + s line[1], s from -1 at lo to 1 at hi, and an error. */
+void motion_line_of_jets(const jet *wide, const jet *centre, double lo, double hi, double line[2],
+                         double *error);
+
 /* n.x of the control points, moved, and of bounds thereof. */
 typedef struct reach {
     int n[3];
@@ -59,9 +74,11 @@ typedef struct reach {
     double least;            /* of all points, about */
     double ends[2];          /* of corners at the first and the last time, the greatest, about */
     double error, share[3];  /* of the coefficients; by variable that it is due to, about */
+    double blur;             /* of the error, by other clocks, about */
 } reach;
 
-void net_along(const form *x, const double n[3], reach *r);
+/* way[k] becomes how far way k of the motion moves a point along n, at most, about; may be NULL. */
+void net_along(const form *x, const double n[3], reach *r, double *way);
 
 /* Takes the corners of the box, which are points of the surface, bits 0, 1 and 2 of their numbers
  * being the ends of u, v and t; and the middle of all control points. Returns how far a corner may

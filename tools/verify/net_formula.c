@@ -166,7 +166,7 @@ static bool take_net(const poly *const x[3], net *to)
         set_counts(&same, to->n[0], to->n[1], to->n[2]);
         add_scaled(&same, x[c], 1);
         to_bernstein(&same);
-        to->error[c] = 0;
+        to->error[c] = to->blur[c] = 0;
         for (int k = 0; k < size_of(&same); ++k, ++p) {
             *p = ld_interval_mid(same.c[k]);
             to->error[c] = proof_larger(to->error[c], net_off(same.c[k], *p));

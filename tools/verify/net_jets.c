@@ -126,7 +126,8 @@ bool net_of_jets(const jet wide[3], const jet centre[3], const double lo[3], con
             for (int j = 0; j < to->n[1]; ++j)
                 for (int k = 0; k < to->n[2]; ++k) *p++ = bernstein(&q, 3, (int[]){i, j, k});
         to->error[c] = q.error;
-        take_share(&wide[c], &by, q.error, to->share[c]);
+        to->blur[c] = proof_smaller(net_off(centre[c].v, ld_interval_mid(centre[c].v)), q.error);
+        take_share(&wide[c], &by, q.error - to->blur[c], to->share[c]);
     }
     return net_take_sizes(to);
 }
@@ -144,4 +145,16 @@ bool motion_of_jets(const jet *wide, const jet *centre, double lo, double hi,
     *error = net_padded(q.error + 16 * ROUNDING * *size);
     *size = net_padded(*size + *error);
     return *size < INFINITY;
+}
+
+/* Lemma. h s^2 is h / 2 but for |h| / 2. */
+void motion_line_of_jets(const jet *wide, const jet *centre, double lo, double hi, double line[2],
+                         double *error)
+{
+    const scale by = scale_of(1, &lo, &hi);
+    const quadratic q = closest(wide, centre, &by);
+    const double bend = 0.5 * q.h[0][0];
+    line[0] = q.c + bend;
+    line[1] = q.g[0];
+    *error = net_padded(q.error + fabs(bend) + 16 * ROUNDING * (fabs(q.c) + fabs(bend)));
 }

@@ -36,7 +36,8 @@ static void find_sizes(const jet *over, const jet *at, const jet parts[3],
 }
 
 /* Bounds the distance from a centre. *size: NULL, or how much it depends on each variable. */
-static ld_interval distances(const kept *k, const aim *a, double *at_centre, double *size)
+static ld_interval distances(const kept *k, const aim *a, double *at_centre, double *size,
+                             double *blur)
 {
     jet wide[3], narrow[3];
     centre_parts(k->box, a->about, wide);
@@ -50,6 +51,7 @@ static ld_interval distances(const kept *k, const aim *a, double *at_centre, dou
         half[j] = 0.5 * (all.hi - all.lo);
     }
     *at_centre = ld_interval_mid(at.v);
+    *blur = 0.5 * (at.v.hi - at.v.lo);
     if (size != NULL) find_sizes(&over, &at, wide, half, size);
     return jet_values(&over, &at, offset);
 }
@@ -86,23 +88,48 @@ void areas_begin(areas *all, memory *known)
 {
     all->memory = known;
     all->count = 0;
-    all->cut = NAN;
+    all->cut.along = -1;
 }
 
-void areas_sizes(const areas *all, size_t index, const aim *a, double size[VARIABLES])
+/* Shares out what the values of clocks blur: by what is known of each clock, or else by the part of
+ * its whole range, among those that stages follow. */
+static void share_blur(const place *of, double blur, double clocks[CLOCKS_MAX])
+{
+    const values *when = of->when;
+    double width[CLOCKS_MAX] = {0}, known = 0, sum = 0;
+    for (size_t k = 0; k <= of->maps; ++k) {
+        const size_t clock = of->of->stages[of->chain->stages[k]].clock;
+        const scene_clock *whole = &of->of->clocks[clock];
+        if (clock != when->main && when->hi[clock] > when->lo[clock])
+            width[clock] = (when->hi[clock] - when->lo[clock]) / (whole->hi - whole->lo);
+    }
+    for (size_t k = 0; k < when->count; ++k) sum += width[k], known += clocks[k];
+    for (size_t k = 0; k < when->count && blur > 0 && sum > 0; ++k)
+        clocks[k] += width[k] == 0 || isinf(blur) ? (width[k] > 0 ? blur : 0)
+                     : known > 0                  ? blur * (clocks[k] / known)
+                                                  : blur * (width[k] / sum);
+}
+
+void areas_sizes(const areas *all, size_t index, const aim *a, double size[VARIABLES],
+                 double clocks[CLOCKS_MAX])
 {
     const area *s = &all->at[index];
     form x;
     split unused;
     reach r;
-    double ends;
+    double ends, blur = INFINITY, way[CLOCKS_MAX];
+    for (size_t k = 0; k < s->of.when->count; ++k) clocks[k] = 0;
     for (int j = 0; j < VARIABLES; ++j) size[j] = INFINITY; /* of what has no bounds */
     if (a->about != NULL) {
-        distances(look_jets(all->memory, &s->of, &s->where), a, &ends, size);
+        distances(look_jets(all->memory, &s->of, &s->where), a, &ends, size, &blur);
     } else if (look_net(all->memory, &s->of, &s->where, &x, &unused) == ENCLOSED && x.net != NULL) {
-        net_along(&x, a->n, &r);
+        net_along(&x, a->n, &r, way);
         net_sizes(&r, size);
+        for (size_t k = 0; x.motion != NULL && k < x.motion->way_count; ++k)
+            clocks[x.motion->ways[k].clock] = way[k];
+        blur = r.blur;
     }
+    if (s->of.when->count > 1) share_blur(&s->of, blur, clocks);
 }
 
 const char *shadow_why_unknown(enclosed result)
@@ -141,7 +168,8 @@ static enclosed cast(areas *all, area *s, const aim *a, split *by)
         const kept *k = look_jets(all->memory, &s->of, &s->where);
         result = k->result, *by = k->divide;
         if (result != ENCLOSED) return result;
-        const ld_interval all_of_it = slipped(distances(k, a, &s->ends[0], NULL), a);
+        double unused;
+        const ld_interval all_of_it = slipped(distances(k, a, &s->ends[0], NULL, &unused), a);
         s->ends[1] = s->ends[0], s->least = all_of_it.lo;
         for (int i = 0; i < NET_TIMES; ++i) s->upper[i] = all_of_it.hi;
         return result;
@@ -149,7 +177,7 @@ static enclosed cast(areas *all, area *s, const aim *a, split *by)
     result = look_net(all->memory, &s->of, &s->where, &x, by);
     if (result == ENCLOSED && x.net != NULL) {
         reach r;
-        net_along(&x, a->n, &r);
+        net_along(&x, a->n, &r, NULL);
         for (int k = 0; k < NET_TIMES; ++k) s->upper[k] = r.upper[k];
         s->ends[0] = r.ends[0], s->ends[1] = r.ends[1], s->least = r.least;
     }
@@ -163,8 +191,8 @@ const char *areas_add(areas *all, const place *of, const box3 *where, const aim 
     split by = {0, 0};
     const enclosed result = cast(all, &made, a, &by);
     if (result == ENCLOSED_EMPTY) return NULL;
-    if (result == ENCLOSED_SPLIT && by.along == T && a->about == NULL) {
-        all->cut = by.at;
+    if (result == ENCLOSED_SPLIT && by.along >= (a->about == NULL ? T : VARIABLES)) {
+        all->cut = by;
         return NULL;
     }
     if (result == ENCLOSED_SPLIT) return add_halves(all, of, where, a, &by);
@@ -181,8 +209,9 @@ const char *areas_divide(areas *all, size_t index, const aim *a, bool *divided)
 {
     const area was = all->at[index];
     split by = {-1, 0};
-    double most = 0, widest = 0, size[VARIABLES];
-    areas_sizes(all, index, a, size);
+    double most = 0, widest = 0, size[VARIABLES], clocks[CLOCKS_MAX], blur = 0;
+    areas_sizes(all, index, a, size, clocks);
+    for (size_t k = 0; k < was.of.when->count; ++k) blur = proof_larger(blur, clocks[k]);
     for (int j = 0; j < (a->about != NULL ? VARIABLES : T); ++j) {
         const double lo = was.where.lo[j], hi = was.where.hi[j], mid = middle(lo, hi);
         if (!(lo < mid && mid < hi)) continue;
@@ -191,7 +220,7 @@ const char *areas_divide(areas *all, size_t index, const aim *a, bool *divided)
         by = (split){j, mid};
         most = size[j], widest = width;
     }
-    *divided = by.along >= 0 && (a->about != NULL || !(size[T] > 2 * most));
+    *divided = by.along >= 0 && (a->about != NULL || !(size[T] > 2 * most)) && !(blur > 2 * most);
     if (!*divided) return NULL;
     all->at[index] = all->at[--all->count];
     return add_halves(all, &was.of, &was.where, a, &by);

@@ -35,8 +35,8 @@ typedef struct areas {
     size_t count, room;
     unsigned long cast; /* boxes projected so far: what a proof costs, about */
     memory *memory;
-    double cut; /* a time at which a formula begins or ends; NAN: none */
-} areas;        /* freed by free(at) */
+    split cut; /* where a formula begins or ends, by T or a clock; along < 0: nowhere */
+} areas;       /* freed by free(at) */
 
 void areas_begin(areas *all, memory *known);
 
@@ -45,11 +45,13 @@ void areas_begin(areas *all, memory *known);
 const char *areas_add(areas *all, const place *of, const box3 *where, const aim *a);
 
 /* Divides an area along what it depends on most. Sets *divided to false if it cannot be divided,
- * or if time is to be divided. */
+ * or if time or another clock is to be divided. */
 const char *areas_divide(areas *all, size_t index, const aim *a, bool *divided);
 
-/* Computes how much an area depends on each variable, about; on t, where it is not linear in it. */
-void areas_sizes(const areas *all, size_t index, const aim *a, double size[VARIABLES]);
+/* Computes how much an area depends on each variable, about; on t, where it is not linear in it.
+ * clocks[k] becomes how much it depends on the values of each clock. */
+void areas_sizes(const areas *all, size_t index, const aim *a, double size[VARIABLES],
+                 double clocks[CLOCKS_MAX]);
 
 /* How far a side reaches in its own direction. */
 typedef struct limits {

@@ -74,11 +74,34 @@ static void read_ignored(statement *s, input *in, char **rest)
     s->ignored[s->ignored_count++][1] = a < b ? b : a;
 }
 
+/* Parameters precede what has their numbers. */
+static void read_parameter(statement *s, input *in, char **rest)
+{
+    if (!s->has_parameters || s->clock_count == CLOCKS_MAX || s->stage_count > 0 || s->has_points) {
+        input_refuse(in, "a parameter is not expected here");
+        return;
+    }
+    scene_clock *made = &s->clocks[s->clock_count];
+    made->lo = words_number(in, rest);
+    made->hi = words_number(in, rest);
+    if (!(made->lo <= made->hi) || *rest == NULL) {
+        input_refuse(in, "a parameter has no range, or no name");
+        return;
+    }
+    made->name = strdup(*rest);
+    if (made->name == NULL) input_refuse(in, "memory ran out");
+    for (size_t k = 1; k < s->clock_count && made->name != NULL; ++k)
+        if (strcmp(s->clocks[k].name, made->name) == 0)
+            input_refuse(in, "two parameters are named '%.60s'", made->name);
+    s->clock_count += made->name != NULL;
+    *rest = NULL;
+}
+
 static void read_within(statement *s, input *in, char **rest)
 {
     s->within = words_number(in, rest);
     if (strcmp(words_take(in, rest), "at") != 0) input_refuse(in, "expected 'at'");
-    s->t = words_number(in, rest);
+    for (size_t k = 0; k < s->clock_count; ++k) s->clocks[k].at = words_number(in, rest);
     for (int k = 0; k < 2 && !input_is_refused(in); ++k) {
         char *line = input_line(in, STATEMENT_LINE_MAX), *more = line;
         if (line == NULL) return;
@@ -128,7 +151,7 @@ static bool check_claim(const statement *s, input *in, unsigned keys)
     for (size_t k = 0; k < sizeof verdicts / sizeof *verdicts; ++k)
         known = known || (strcmp(verdicts[k].word, s->verdict) == 0 &&
                           (s->has_points || !verdicts[k].has_points));
-    if (keys != KEYS_NEEDED || !(s->apart >= 0) || !(s->from <= s->to))
+    if (keys != KEYS_NEEDED || !(s->apart >= 0) || !(s->clocks[0].lo <= s->clocks[0].hi))
         return input_refuse(in, "it says nothing of 'apart', 'from' and 'to'");
     if (!known) return input_refuse(in, "it has no verdict, or no points for it");
     return check_names(s, in);
@@ -144,7 +167,9 @@ static void read_line(statement *s, input *in, char *line, unsigned *keys, bool 
         strcmp(key, "apart") == 0 || strcmp(key, "from") == 0 || strcmp(key, "to") == 0;
     if (is_number) {
         const unsigned bit = key[0] == 'a' ? KEY_APART : key[0] == 'f' ? KEY_FROM : KEY_TO;
-        double *to = bit == KEY_APART ? &s->apart : bit == KEY_FROM ? &s->from : &s->to;
+        double *to = bit == KEY_APART  ? &s->apart
+                     : bit == KEY_FROM ? &s->clocks[0].lo
+                                       : &s->clocks[0].hi;
         if (*keys & bit) input_refuse(in, "a second line '%s'", key);
         *keys |= bit;
         *to = words_number(in, &rest);
@@ -156,6 +181,8 @@ static void read_line(statement *s, input *in, char *line, unsigned *keys, bool 
         words_copy(in, s->verdict, sizeof s->verdict, words_take(in, &rest));
     else if (strcmp(key, "scene") == 0 || strcmp(key, "type") == 0)
         read_source(s, in, key, &rest);
+    else if (strcmp(key, "parameter") == 0)
+        read_parameter(s, in, &rest);
     else if (strcmp(key, "within") == 0 && !s->has_points)
         read_within(s, in, &rest);
     else if (strcmp(key, "shape") == 0 || strcmp(key, "map") == 0)
@@ -175,10 +202,11 @@ bool statement_read(statement *s, input *in)
 {
     unsigned keys = 0;
     bool done = false;
-    *s = (statement){.apart = 0};
+    *s = (statement){.clock_count = 1};
     char *first = input_line(in, 80);
-    if (first != NULL && strcmp(first, "impinge certificate 1") != 0)
-        input_refuse(in, "it begins with no 'impinge certificate 1'");
+    s->has_parameters = first != NULL && strcmp(first, "impinge certificate 2") == 0;
+    if (first != NULL && !s->has_parameters && strcmp(first, "impinge certificate 1") != 0)
+        input_refuse(in, "it begins with no 'impinge certificate 1', or 2");
     free(first);
     while (!done && !input_is_refused(in)) {
         char *line = input_line(in, STATEMENT_LINE_MAX);
@@ -207,6 +235,7 @@ void statement_free(statement *s)
     }
     for (size_t k = 0; k < s->chain_count; ++k) free(s->chains[k].stages);
     for (size_t k = 0; k < s->body_count; ++k) free(s->bodies[k]);
+    for (size_t k = 1; k < s->clock_count; ++k) free(s->clocks[k].name);
     free(s->sources);
     free(s->stages);
     free(s->chains);

@@ -28,6 +28,7 @@ typedef struct piece {
 
 typedef struct stage {
     bool is_map;
+    size_t clock; /* that its t is */
     char type[64];
     piece *pieces;
     size_t count;
@@ -50,12 +51,24 @@ typedef struct source {
     char file[256];                            /* of a type: the plugin's, without its folder */
 } source;
 
+/* What the t of formulas is: time, which is number 0, or a parameter of the scene. */
+typedef struct scene_clock {
+    char *name; /* NULL: time */
+    double lo, hi;
+    double at; /* for the two points */
+} scene_clock;
+
+enum { CLOCKS_MAX = 33 };
+
 typedef struct statement {
     char program[64], verdict[16];
-    double apart, from, to;
+    bool has_parameters; /* it is of the format that may have some */
+    double apart;
+    scene_clock clocks[CLOCKS_MAX];
+    size_t clock_count;
     bool has_points;
     point point[2];
-    double within, t;
+    double within;
     source *sources;
     stage *stages;
     chain *chains;

@@ -7,6 +7,7 @@
 
 #include <math.h>
 #include <stdlib.h>
+#include <string.h>
 
 enum { PARTS_MAX = 1 << 16 };
 
@@ -96,6 +97,10 @@ bool statement_read_stage(statement *s, input *in, bool is_map, char **rest)
     *made = (stage){.is_map = is_map};
     const size_t count = words_whole(in, rest, STATEMENT_PIECES_MAX);
     words_copy(in, made->type, sizeof made->type, words_take(in, rest));
+    if (*rest != NULL && s->has_parameters) {
+        if (strcmp(words_take(in, rest), "clock") != 0) input_refuse(in, "expected 'clock'");
+        made->clock = words_whole(in, rest, s->clock_count);
+    }
     if (is_map && count != 1) input_refuse(in, "a map has pieces");
     size_t room = 0;
     for (size_t k = 0; k < count && !input_is_refused(in); ++k)

@@ -34,15 +34,34 @@ static void say_side(const pair *p, const cell *c, int side, char *text, size_t 
                  c->lo[side][0], c->hi[side][0], c->lo[side][1], c->hi[side][1]);
 }
 
+static const char *clock_name(const statement *s, size_t clock)
+{
+    return clock == 0 ? "t" : s->clocks[clock].name;
+}
+
+/* The values of clocks beside T, of which there is room for some. */
+static void say_values(const pair *p, char *text, size_t size)
+{
+    const values *when = &p->prover.worst_when;
+    size_t used = 0;
+    text[0] = '\0';
+    for (size_t k = 1; k < when->count && used + 200 < size; ++k)
+        if (k != when->main)
+            used += (size_t)snprintf(text + used, size - used, ", %.60s [%.17g, %.17g]",
+                                     clock_name(p->w->says, k), when->lo[k], when->hi[k]);
+}
+
 static bool refuse(pair *p)
 {
     const prover *q = &p->prover;
-    char a[300], b[300], found[80] = "";
+    char a[300], b[300], found[80] = "", others[500];
     say_side(p, &q->worst, 0, a, sizeof a);
     say_side(p, &q->worst, 1, b, sizeof b);
+    say_values(p, others, sizeof others);
     if (q->found < INFINITY) snprintf(found, sizeof found, ": %.9g apart", q->found);
-    return input_refuse(p->w->in, "%s and %s, t [%.17g, %.17g], claimed apart by %.9g: %s%s", a, b,
-                        q->worst.t[0], q->worst.t[1], p->w->says->apart, q->why, found);
+    return input_refuse(p->w->in, "%s and %s, %.60s [%.17g, %.17g]%s, claimed apart by %.9g: %s%s",
+                        a, b, clock_name(p->w->says, q->when.main), q->worst.t[0], q->worst.t[1],
+                        others, p->w->says->apart, q->why, found);
 }
 
 static bool take_leaf(pair *p, const cell *c, unsigned op)
@@ -74,39 +93,75 @@ static bool take_leaf(pair *p, const cell *c, unsigned op)
 static void say_split(const pair *p, const cell *c, const cut *by)
 {
     if (p->w->text == NULL) return;
-    if (by->side == 2)
-        fprintf(p->w->text, "split t %a\n", by->at);
+    if (by->side >= 2)
+        fprintf(p->w->text, "split %s %a\n",
+                clock_name(p->w->says, by->side == 2 ? p->prover.when.main : (size_t)by->along),
+                by->at);
     else if (c->count[by->side] > 1)
         fprintf(p->w->text, "split %c pieces\n", "AB"[by->side]);
     else
         fprintf(p->w->text, "split %c %c\n", "AB"[by->side], "uv"[by->along]);
 }
 
+/* A split, and its bytes. */
+typedef struct entry {
+    cut by;
+    uint8_t bytes[4];
+    size_t size;
+} entry;
+
+/* Reads the rest of a split. Halves cover the cell even if one is not smaller, if the place is in
+ * the cell. */
+static bool read_split(pair *p, const cell *c, unsigned op, entry *e)
+{
+    input *in = p->w->in;
+    const values *when = &p->prover.when;
+    *e = (entry){{(int)op / 2, (int)op % 2, NAN}, {(uint8_t)op}, 1};
+    double lo = c->t[0], hi = c->t[1];
+    if (op == WALK_CLOCK) {
+        const size_t clock = input_count(in, when->count - 1);
+        if (clock == when->main) return input_refuse(in, "a clock is divided that is T");
+        lo = when->lo[clock], hi = when->hi[clock];
+        e->by = (cut){3, (int)clock, NAN};
+        e->bytes[e->size++] = (uint8_t)clock;
+    }
+    if (op >= WALK_TIME) {
+        const unsigned k16 = input_16(in);
+        e->by.at = lo + (hi - lo) * (k16 / 65536.0);
+        e->bytes[e->size++] = (uint8_t)(k16 >> 8);
+        e->bytes[e->size++] = (uint8_t)k16;
+        if (!(lo <= e->by.at && e->by.at <= hi))
+            return input_refuse(in, "time is divided outside of the cell");
+    } else if (c->count[e->by.side] > 1 && e->by.along != 0) {
+        return input_refuse(in, "pieces are divided along v");
+    }
+    return !input_is_refused(in);
+}
+
 static bool take_entry(pair *p, const cell *c, int depth)
 {
     input *in = p->w->in;
     cell half[2];
+    entry e;
     const unsigned op = input_byte(in);
-    if (op > WALK_ALONE || depth > DEPTH_MAX)
-        return input_refuse(in, op > WALK_ALONE ? "an entry is unknown" : "the tree is too deep");
+    const unsigned last = p->w->says->clock_count > 1 ? WALK_CLOCK : WALK_ALONE;
+    if (op > last || depth > DEPTH_MAX)
+        return input_refuse(in, op > last ? "an entry is unknown" : "the tree is too deep");
     if (input_is_refused(in)) return false;
-    if (op > WALK_TIME) return take_leaf(p, c, op);
-    cut by = {(int)op / 2, (int)op % 2, NAN};
-    const unsigned k16 = op == WALK_TIME ? input_16(in) : 0;
-    if (op == WALK_TIME) by.at = c->t[0] + (c->t[1] - c->t[0]) * (k16 / 65536.0);
-    say_split(p, c, &by);
-    const bool is_pieces = op < WALK_TIME && c->count[by.side] > 1;
-    if (is_pieces && by.along != 0) return input_refuse(in, "pieces are divided along v");
-    /* halves cover the cell even if one is not smaller */
-    cell_split(&p->prover, c, &by, half);
-    if (op == WALK_TIME && !(c->t[0] <= by.at && by.at <= c->t[1]))
-        return input_refuse(in, "time is divided outside of the cell");
+    if (op > WALK_TIME && op < WALK_CLOCK) return take_leaf(p, c, op);
+    if (!read_split(p, c, op, &e)) return false;
+    say_split(p, c, &e.by);
+    cell_split(&p->prover, c, &e.by, half);
     const watch *told = p->is_said ? p->w->watch : NULL;
-    const uint8_t bytes[] = {(uint8_t)op, (uint8_t)(k16 >> 8), (uint8_t)k16};
-    if (told != NULL) told->split(told->context, bytes, op == WALK_TIME ? sizeof bytes : 1);
-    if (!take_entry(p, &half[0], depth + 1) || !take_entry(p, &half[1], depth + 1)) return false;
-    if (told != NULL) told->joined(told->context, &p->prover, c);
-    return true;
+    if (told != NULL) told->split(told->context, e.bytes, e.size);
+    bool good = true;
+    for (int k = 0; k < 2 && good; ++k) {
+        const values_kept was = values_halve(&p->prover, &e.by, k);
+        good = take_entry(p, &half[k], depth + 1);
+        values_restore(&p->prover, &e.by, &was);
+    }
+    if (good && told != NULL) told->joined(told->context, &p->prover, c);
+    return good;
 }
 
 static bool take_tree(pair *p, const cell *c)
@@ -155,7 +210,8 @@ static bool leave_out(pair *p, size_t count)
         if (map != b->stages[b->count - k])
             return input_refuse(in, "maps are left out that the surfaces do not share");
         if (!p->is_said) continue;
-        const double d = map_deviation_upper(s, map, s->from, s->to, p->prover.side[0].room);
+        const scene_clock *t = &s->clocks[s->stages[map].clock];
+        const double d = map_deviation_upper(s, map, t->lo, t->hi, p->prover.side[0].room);
         if (!(d < 0.5))
             return input_refuse(in, "map %zu (%s), left out, is not proved to be rigid", map,
                                 s->stages[map].type);
@@ -186,20 +242,35 @@ typedef struct work {
     memo *memos;
 } work;
 
+/* Reads which clock is T, and begins with all values of all of them. */
+static bool begin_values(pair *p, cell *c)
+{
+    const statement *s = p->w->says;
+    values *when = &p->prover.when;
+    when->count = s->clock_count;
+    for (size_t k = 0; k < s->clock_count; ++k)
+        when->lo[k] = s->clocks[k].lo, when->hi[k] = s->clocks[k].hi;
+    when->stamp = s->clock_count > 1 ? ++p->w->stamps : 0;
+    when->main = s->clock_count > 1 ? input_count(p->w->in, s->clock_count - 1) : 0;
+    c->t[0] = when->lo[when->main], c->t[1] = when->hi[when->main];
+    return !input_is_refused(p->w->in);
+}
+
 static bool take_pair(walk *w, size_t a, size_t b, const work *room)
 {
     const statement *s = w->says;
     pair p = {.w = w, .chain = {&s->chains[a], &s->chains[b]}};
-    cell c = {.t = {s->from, s->to}};
+    cell c = {.t = {0, 0}};
     p.is_said = statement_is_said(s, p.chain[0]) && statement_is_said(s, p.chain[1]);
     p.prover.tests_most = w->effort;
     p.prover.known = room->known;
+    p.prover.stamps = &w->stamps;
     w->pairs += 1;
     if (input_count(w->in, UINT32_MAX) != a || input_count(w->in, UINT32_MAX) != b)
         return input_refuse(w->in, "the tree of surfaces %zu and %zu is not here", a, b);
     for (int side = 0; side < 2; ++side) {
         p.prover.side[side] =
-            (place){.of = s, .chain = p.chain[side], .room = room->steps, .memos = room->memos};
+            (place){s, p.chain[side], 0, 0, room->steps, room->memos, &p.prover.when};
         c.count[side] = s->stages[p.chain[side]->stages[0]].count;
         if (!p.is_said) note_assumed(w, p.chain[side]);
         if (c.count[side] == 0) return input_refuse(w->in, "a surface has no pieces");
@@ -207,7 +278,7 @@ static bool take_pair(walk *w, size_t a, size_t b, const work *room)
     if (w->text != NULL)
         fprintf(w->text, "pair %zu %zu: '%s' and '%s'\n", a, b, s->bodies[p.chain[0]->body],
                 s->bodies[p.chain[1]->body]);
-    bool good = leave_out(&p, input_count(w->in, UINT32_MAX));
+    bool good = leave_out(&p, input_count(w->in, UINT32_MAX)) && begin_values(&p, &c);
     for (int side = 0; side < 2 && good; ++side) {
         good = read_order(&p, side, c.count[side]);
         p.prover.order[side] = p.order[side];
@@ -256,7 +327,7 @@ bool walk_trees(walk *w)
             if (!statement_ignores(s, a, b)) good = take_bodies(w, a, b, first, &room);
     free(first);
     free(room.steps);
-    free(room.known);
+    look_free(room.known);
     for (size_t k = 0; k < s->stage_count && room.memos != NULL; ++k) free(room.memos[k].value);
     free(room.memos);
     return good && input_end(w->in);
@@ -269,8 +340,10 @@ static bool find_point(walk *w, int k, jet *room, ld_interval x[3])
     const statement *s = w->says;
     const point *q = &s->point[k];
     const chain *c = &s->chains[q->chain];
-    const place p = {s, c, q->piece, c->count - 1, room, NULL};
-    const box3 where = {{q->u, q->v, s->t}, {q->u, q->v, s->t}};
+    values when = {.count = s->clock_count};
+    for (size_t i = 0; i < s->clock_count; ++i) when.lo[i] = when.hi[i] = s->clocks[i].at;
+    const place p = {s, c, q->piece, c->count - 1, room, NULL, &when};
+    const box3 where = {{q->u, q->v, when.lo[0]}, {q->u, q->v, when.lo[0]}};
     jet out[3], same[3];
     split unused;
     if (enclose(&p, &where, where.lo, out, same, &unused) != ENCLOSED)
@@ -290,8 +363,12 @@ static bool check_points(walk *w)
     }
     if (statement_ignores(s, s->chains[p[0].chain].body, s->chains[p[1].chain].body))
         return input_refuse(w->in, "the points are of bodies that are not tested");
-    return (s->from <= s->t && s->t <= s->to) ||
-           input_refuse(w->in, "the points are of another time");
+    for (size_t k = 0; k < s->clock_count; ++k) {
+        const scene_clock *t = &s->clocks[k];
+        if (!(t->lo <= t->at && t->at <= t->hi))
+            return input_refuse(w->in, "the points are of another time");
+    }
+    return true;
 }
 
 bool walk_points(walk *w)

@@ -8,7 +8,7 @@
 /* The trees of a certificate, read and proved leaf by leaf */
 
 /* Entries from 4 on (core/CERTIFICATE.md). */
-enum { WALK_TIME = 4, WALK_AXIS, WALK_SAME, WALK_ALONE };
+enum { WALK_TIME = 4, WALK_AXIS, WALK_SAME, WALK_ALONE, WALK_CLOCK };
 
 /* Callbacks for the entries of a certificate's trees, in order. Trees of surfaces without formulas
  * are left out. */
@@ -31,7 +31,8 @@ typedef struct walk {
     void (*progress)(uint64_t bytes); /* called now and then; NULL: not */
     const watch *watch;               /* NULL: none */
     uint64_t leaves, pairs, tests;
-    bool *assumed; /* by stage: it is needed, and the certificate has no formula for it */
+    uint64_t stamps; /* given to values of clocks */
+    bool *assumed;   /* by stage: it is needed, and the certificate has no formula for it */
 } walk;
 
 /* Reads all trees and the end of the file, and proves the leaves that are this process's share.
