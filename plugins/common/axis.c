@@ -199,8 +199,21 @@ static imp_model matrix_entry(const axis_frame *frame, int i, int j, const imp_m
     return imp_model_within(sum, imp_interval_make(-1, 1));
 }
 
+/* The entries at one angle, which are known within their errors. */
+static void matrix_at_point(const axis_frame *frame, const imp_model *angle, imp_model turn[3][3])
+{
+    const axis_point_matrix matrix = axis_matrix_of_points(frame, angle);
+    for (int i = 0; i < 3; ++i)
+        for (int j = 0; j < 3; ++j)
+            turn[i][j] = imp_known(matrix.entry[i][j], matrix.off[i][j] * IMP_SLACK);
+}
+
 void axis_matrix(const axis_frame *frame, imp_model angle, imp_model turn[3][3])
 {
+    if (imp_is_point(&angle)) {
+        matrix_at_point(frame, &angle, turn);
+        return;
+    }
     imp_model sine, cosine;
     imp_sincos(angle, &sine, &cosine);
     for (int i = 0; i < 3; ++i)
