@@ -296,6 +296,8 @@ _FUNCTIONS = {
     "imp_query_step": (c.c_int, _P, c.c_uint64, _E),
     "imp_query_keep_proof": (c.c_int, _P, _E),
     "imp_query_write_proof": (c.c_int, _P, _S, ProofSink, _P, _E),
+    "imp_survey_keep_proof": (c.c_int, _P, _E),
+    "imp_survey_write_proof": (c.c_int, _P, _S, ProofSink, _P, _E),
     "imp_scene_sources": (_P, _P, _E),
     "imp_query_free": (None, _P),
 }

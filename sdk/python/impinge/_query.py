@@ -95,6 +95,22 @@ def options_of(scene: Handle, settings: Settings) -> Tuple[lib.Options, Optional
     return options, crew
 
 
+def certificate_of(scene: Handle, source: Optional[str], write: Callable[..., int], address: Any) -> bytes:
+    """What `write` writes of a query or a survey. `source`: SHA-256 of the scene's file, if it is of one."""
+    parts: List[bytes] = []
+    error = lib.Error()
+    types = lib.library.imp_scene_sources(scene.address, c.byref(error))
+    if not types:
+        check(error.code, error)
+    stated = c.string_at(types)
+    lib.free(types)
+    if source is not None:
+        stated = b"scene " + source.encode() + b"\n" + stated
+    sink = lib.ProofSink(lambda _, data, size: parts.append(c.string_at(data, size)))
+    check(write(address, stated, sink, None, c.byref(error)), error)
+    return b"".join(parts)
+
+
 class Query:
     """A query of libimpinge, freed at the end of its `with`. With `wanted` it is one of clearance."""
 
@@ -202,18 +218,7 @@ class Query:
 
     def certificate(self, source: Optional[str]) -> bytes:
         """The certificate of its answer. `source`: SHA-256 of the scene's file, if it is of one."""
-        parts: List[bytes] = []
-        error = lib.Error()
-        address = lib.library.imp_scene_sources(self._scene.address, c.byref(error))
-        if not address:
-            check(error.code, error)
-        stated = c.string_at(address)
-        lib.free(address)
-        if source is not None:
-            stated = b"scene " + source.encode() + b"\n" + stated
-        sink = lib.ProofSink(lambda _, data, size: parts.append(c.string_at(data, size)))
-        check(lib.library.imp_query_write_proof(self._address, stated, sink, None, c.byref(error)), error)
-        return b"".join(parts)
+        return certificate_of(self._scene, source, lib.library.imp_query_write_proof, self._address)
 
     # --- Clearance ------------------------------------------------------------------------------
 

@@ -9,7 +9,7 @@ from typing import Any, Callable, Dict, NamedTuple, Optional, Sequence, Tuple
 
 from . import _library as lib
 from ._handle import Handle
-from ._query import SECONDS, Settings, Wanted, options_of
+from ._query import SECONDS, Settings, Wanted, certificate_of, options_of
 from .errors import check
 from .results import Progress
 
@@ -101,6 +101,15 @@ class Survey:
         """At a smaller gamma."""
         error = lib.Error()
         check(lib.library.imp_survey_refine(self._address, gamma, -1, c.byref(error)), error)
+
+    def keep_proof(self) -> None:
+        """Before the first step: keeps what its certificate needs."""
+        error = lib.Error()
+        check(lib.library.imp_survey_keep_proof(self._address, c.byref(error)), error)
+
+    def certificate(self, source: Optional[str]) -> bytes:
+        """The certificate of its answer. `source`: SHA-256 of the scene's file, if it is of one."""
+        return certificate_of(self._scene, source, lib.library.imp_survey_write_proof, self._address)
 
     def run(self, is_over: Callable[[], bool] = lambda: False) -> State:
         """Goes on until there is an answer, with a look at signals and at `is_over` now and then."""

@@ -22,7 +22,7 @@ from ._parts import Parts
 from ._query import ProgressSink, Query, Settings, Wanted
 from ._registry import Registry
 from . import _surveys
-from ._survey import Survey, parameters_of
+from ._survey import State, Survey, parameters_of
 from ._surveys import Surveys
 from .errors import UsageError, check
 from .pictures import Format, Picture, draw
@@ -287,16 +287,13 @@ class Scene:
         wanted = self._proof_path(proof)
         if self.parameters:
             with Survey(self._handle, settings) as survey:
-                state = survey.run()
+                state = self._run(survey, wanted)
                 return replace(result_of(self.bodies, survey.result()), parameters=state.values,
                                proved=state.proved)
         with Query(self._handle, settings) as query:
             return result_of(self.bodies, self._step(query, wanted))
 
     def _proof_path(self, proof: Optional[values.Path]) -> Optional[str]:
-        if proof is not None and self.parameters:
-            raise UsageError("proof: the scene has parameters, and certificates are about one value of each; "
-                             "ask scene.at({...}) for one")
         return None if proof is None else values.path("proof", proof)
 
     def _step(self, query: Query, proof: Optional[str]) -> lib.Result:
@@ -307,6 +304,15 @@ class Scene:
         if proof is not None:
             _files.write(proof, query.certificate(None if self._handle.changes else self._source))
         return answer
+
+    def _run(self, survey: Survey, proof: Optional[str]) -> State:
+        """Finds the answer for all values, and writes its certificate there."""
+        if proof is not None:
+            survey.keep_proof()
+        state = survey.run()
+        if proof is not None:
+            _files.write(proof, survey.certificate(None if self._handle.changes else self._source))
+        return state
 
     def solve_each(self, *, time: Optional[Sequence[float]] = None, gamma: Optional[float] = None,
                    gamma_clear: Optional[float] = None, max_pairs: Optional[int] = None,
@@ -392,7 +398,7 @@ class Scene:
         path = self._proof_path(proof)
         if self.parameters:
             with Survey(self._handle, settings, Wanted(required, tolerance)) as survey:
-                state = survey.run()
+                state = self._run(survey, path)
                 return replace(clearance_of(self.bodies, survey.clearance()), parameters=state.values,
                                proved=state.proved)
         with Query(self._handle, settings, Wanted(required, tolerance)) as query:
