@@ -173,7 +173,7 @@ core_bounds = \
 
 core_witness = \
     core/witness/contact_estimate.c core/witness/contact_estimate.h \
-    core/witness/fall.c core/witness/fall.h \
+    core/witness/time_descent.c core/witness/time_descent.h \
     core/witness/net_eval.c core/witness/net_eval.h \
     core/witness/newton.c core/witness/newton.h \
     core/witness/search.c core/witness/search.h \

@@ -23,7 +23,7 @@ check_suites = \
     tests/unit/test_clearance \
     tests/unit/test_clearance_required \
     tests/unit/test_clearance_steps \
-    tests/unit/test_fall \
+    tests/unit/test_time_descent \
     tests/unit/test_broad_phase \
     tests/unit/test_balls \
     tests/unit/test_builder \
@@ -520,7 +520,7 @@ tests_unit_test_clearance_required_SOURCES = tests/unit/test_clearance_required.
     tests/support/scene_variants.c
 tests_unit_test_clearance_steps_SOURCES = tests/unit/test_clearance_steps.c \
     tests/support/scene_variants.c
-tests_unit_test_fall_SOURCES = tests/unit/test_fall.c tests/support/scene_variants.c
+tests_unit_test_time_descent_SOURCES = tests/unit/test_time_descent.c tests/support/scene_variants.c
 tests_unit_test_guarantees_SOURCES = tests/unit/test_guarantees.c tests/support/scene_variants.c
 tests_unit_test_metamorphic_SOURCES = tests/unit/test_metamorphic.c tests/support/scene_variants.c
 tests_unit_test_steps_SOURCES = tests/unit/test_steps.c tests/support/scene_variants.c

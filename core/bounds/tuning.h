@@ -182,11 +182,11 @@ TUNING_NUMBER(TUNING_NEWTON_PROMISE, 1e-8);
 /* Most pairs of pieces tried in one walk. */
 TUNING_INTEGER(TUNING_WALK_TRIES, 64);
 
-/* --- The fall of a witness in time (fall.c) --------------------------------------------------- */
+/* --- Descent of a witness in time (time_descent.c) -------------------------------------------- */
 
 /* Most further witnesses sought. */
-TUNING_INTEGER(TUNING_FALL_STEPS, 12);
-/* A fall ends where it saves less than this part of the bracket's greatest width. */
-TUNING_NUMBER(TUNING_FALL_GAIN, 0.0625);
+TUNING_INTEGER(TUNING_DESCENT_STEPS, 12);
+/* The descent ends where it saves less than this part of the bracket's greatest width. */
+TUNING_NUMBER(TUNING_DESCENT_GAIN, 0.0625);
 
 #endif

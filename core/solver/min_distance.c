@@ -14,7 +14,7 @@
 #include "core/solver/pair_note.h"
 #include "core/solver/pair_step.h"
 #include "core/solver/piece_walk.h"
-#include "core/witness/fall.h"
+#include "core/witness/time_descent.h"
 
 /* --- Bounds and limits ------------------------------------------------------------------------ */
 
@@ -134,17 +134,18 @@ static void test_and_push(min_distance *m, pair p)
 
 /* --- Expanding one pair ----------------------------------------------------------------------- */
 
-/* Lets a witness that lowers `upper` fall to the time at which its gap is least, if the bracket is
+/* Moves a witness that lowers `upper` to the time at which its gap is least, if the bracket is
  * to become narrow. */
 static imp_code lower_in_time(min_distance *m, const node *const nodes[2], double *t, witness *seen,
                               imp_error *error)
 {
     const time_window times = window_common(m->window, pair_times(nodes[0], nodes[1]));
-    const double part = TUNING_FALL_GAIN * m->tolerance;
+    const double part = TUNING_DESCENT_GAIN * m->tolerance;
     size_t searches = 0;
     if (m->required > 0) return IMP_SUCCESS;
     imp_code code = witness_polish(nodes, *t, seen, error);
-    if (code == IMP_SUCCESS) code = witness_fall(nodes, &times, part, t, seen, &searches, error);
+    if (code == IMP_SUCCESS)
+        code = witness_descend_in_time(nodes, &times, part, t, seen, &searches, error);
     m->stats->witness_searches += searches;
     return code;
 }

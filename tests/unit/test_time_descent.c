@@ -50,6 +50,6 @@ START_TEST(a_ball_that_passes_is_followed_to_its_nearest_moment)
 }
 END_TEST
 
-SUITE_MAIN("fall", points_near_a_floor_are_polished, a_spinning_ring_is_nearest_at_its_rim,
+SUITE_MAIN("time_descent", points_near_a_floor_are_polished, a_spinning_ring_is_nearest_at_its_rim,
            a_corner_that_passes_is_followed_to_its_nearest_moment,
            a_ball_that_passes_is_followed_to_its_nearest_moment)

@@ -2,7 +2,7 @@
  * SPDX-License-Identifier: Apache-2.0 */
 #include <config.h>
 
-#include "core/witness/fall.h"
+#include "core/witness/time_descent.h"
 
 #include "core/bounds/tuning.h"
 
@@ -59,17 +59,17 @@ static double root_between(const moment *x, const moment *y, double from, double
     return from + way * (part < least ? least : part > 1 - least ? 1 - least : part);
 }
 
-/* `best` falls towards `end`, whose side is that of its rate. While no rate of the other sign is
+/* `best` moves towards `end`, whose side is that of its rate. While no rate of the other sign is
  * known, the next time is that at which the rate would be 0; from then on, the bracket of both
  * shrinks. It ends where the bracket's rates promise less than `part` of the gap. */
-imp_code witness_fall(const node *const nodes[2], const time_window *times, double part, double *t,
-                      witness *found, size_t *searches, imp_error *error)
+imp_code witness_descend_in_time(const node *const nodes[2], const time_window *times, double part,
+                                 double *t, witness *found, size_t *searches, imp_error *error)
 {
     moment best = {.t = *t, .seen = *found};
     imp_code code = find_rate(nodes, times, &best, error);
     double end = best.rate > 0 ? times->lo : times->hi, next = 0.5 * best.t + 0.5 * end;
     bool is_open = true;
-    for (int k = 0; code == IMP_SUCCESS && k < TUNING_FALL_STEPS; ++k) {
+    for (int k = 0; code == IMP_SUCCESS && k < TUNING_DESCENT_STEPS; ++k) {
         const double gain = part * best.seen.gap_upper;
         if (!(fabs(best.rate) * fabs(end - best.t) > gain) || next == best.t) break;
         moment m = {.t = next};
