@@ -247,6 +247,6 @@ bool prove_apart(prover *p, const cell *c)
     p->has_guessed = false;
     p->found = INFINITY;
     p->why = "";
-    if (!(p->apart > 0)) return true; /* no distance is below 0 */
+    if (p->apart <= 0) return true; /* no distance is below 0 */
     return prove(p, c, 0);
 }
