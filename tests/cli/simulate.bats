@@ -216,6 +216,16 @@ oblique() {
     fails 4 'out.json: /bodies/0/maps: found maps that move' "$IMPINGE" simulate out.json -o again.json
 }
 
+@test "a scene with parameters is refused, whoever follows them" {
+    local moves='"maps": [{"type": "translate", "velocity": [0,0,1], "clock": "j"}],'
+    for scene in "$(ball ball 2 0,0,1.5 "$moves")" \
+        "$(ball ball 2 0,0,1.5), {\"name\": \"still\", $moves \"surfaces\": [{\"type\": \"sphere\"}]}"; do
+        echo "{\"parameters\": {\"j\": [0,1]}, \"bodies\": [$scene]}" >ranges.json
+        fails 4 'ranges.json: found the parameter "j", must be none; simulate finds one motion' \
+            "$IMPINGE" simulate ranges.json -o out.json
+    done
+}
+
 @test "bodies too large to integrate are told so" {
     echo '{"bodies": [{"mass": 1, "surfaces": [{"type": "sphere", "radius": 1e100}]}]}' >huge.json
     fails 4 '/bodies/0/surfaces: found points farther than 1e50 from the origin, too far to integrate; choose other units' \

@@ -120,6 +120,18 @@ static exit_status read_text(setup *s, const arguments *args)
     return status;
 }
 
+/* A motion is one, with its impacts; a parameter would make it many. */
+static exit_status check_parameters(const setup *s)
+{
+    imp_scene_parameter_info first;
+    if (!imp_scene_parameter(s->still, 0, &first)) return EXIT_ANSWERED;
+    return complain(EXIT_DATA, speaker,
+                    "%.300s: found the parameter \"%.80s\", must be none; simulate finds one "
+                    "motion: leave \"parameters\" and \"clock\" out, and write their values into "
+                    "what follows them",
+                    s->name, first.name);
+}
+
 static exit_status check_options(setup *s)
 {
     imp_options *o = &s->options;
@@ -152,6 +164,8 @@ exit_status setup_read(setup *s, const arguments *args)
     reading_limit_begin(args, NULL);
     exit_status status = read_text(s, args);
     reading_limit_end();
+    if (status != EXIT_ANSWERED) return status;
+    status = check_parameters(s);
     if (status != EXIT_ANSWERED) return status;
     s->options = query_options(s->still, args);
     s->limits.max_pairs = s->options.max_pairs;
