@@ -26,12 +26,13 @@ static exit_status fail(const batch_resume *resume, const char *what)
 /* --- Opening ---------------------------------------------------------------------------------- */
 
 /* Whether the line is an incomplete result: cut off, or with a place that was never written. A line
- * that begins with such a place may be anything, unless the file is known for results. */
+ * that begins with such a place may be anything, unless the file is known for results, or lines
+ * before it have to be some. */
 static bool is_torn_answer(const batch_resume *resume, const input_text *line)
 {
     static const char beginning[] = "{\"id\":";
     const size_t most = sizeof beginning - 1, length = strnlen(line->text, line->length);
-    if (length == 0 && line->length > 0) return resume->record.is_known;
+    if (length == 0 && line->length > 0) return resume->record.is_known || resume->end > 0;
     return memcmp(line->text, beginning, length < most ? length : most) == 0;
 }
 

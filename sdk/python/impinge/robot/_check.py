@@ -159,7 +159,7 @@ class _Seeker:
         with Survey(self._scene, self._settings, Wanted(tolerance=0.1),
                     ranges=[(x, x) for x in positions]) as survey:
             survey.run()
-            return survey.clearance().upper
+            return float(survey.clearance().upper)
 
 
 def _ask(links: Links, pair: Tuple[str, str], ranges: Ranges, limits: Limits,
@@ -168,7 +168,7 @@ def _ask(links: Links, pair: Tuple[str, str], ranges: Ranges, limits: Limits,
     settings = Settings(gamma=limits.gamma, max_seconds=limits.max_seconds, max_pairs=limits.max_pairs)
     with Survey(scene._handle, settings, any=True) as survey:
         seeker = _Seeker(scene._handle, ranges, settings)
-        state = survey.run(seeker if seeks else lambda: False)
+        state = survey.run(seeker) if seeks else survey.run()
         if state.values is None and seeker.found is not None:
             state = state._replace(values=seeker.found)
         return state, result_of(scene.bodies, survey.result())
