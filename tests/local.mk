@@ -4,6 +4,8 @@
 # One line per suite: tests/unit/NAME is built from tests/unit/NAME.c and linked with everything in
 # core, internal symbols included.
 check_suites = \
+    tests/unit/test_touchings \
+    tests/unit/test_survey_parts \
     tests/fuzz/api \
     tests/fuzz/cache \
     tests/fuzz/csv \
@@ -106,11 +108,9 @@ check_suites = \
     tests/unit/test_survey_samples \
     tests/unit/test_spreads \
     tests/unit/test_survey_forms \
-    tests/unit/test_survey_parts \
     tests/unit/test_threads \
     tests/unit/test_times \
-    tests/unit/test_tolerance \
-    tests/unit/test_touchings
+    tests/unit/test_tolerance
 
 # The same, with MPFI as the judge of bounds; the longest first.
 mpfi_suites = \
