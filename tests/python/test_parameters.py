@@ -81,7 +81,7 @@ def test_a_scene_with_parameters_is_written_and_read():
 def test_a_limit_and_a_sink_leave_it_undecided():
     scene = arm(type="ellipsoid", radii=[0.4, 0.4, 0.4])  # balls take too few pairs
     assert scene.clearance(tolerance=1e-8, max_pairs=200).reason == "pairs"
-    assert scene.clearance(tolerance=1e-8, progress=lambda p: False).reason == "cancelled"
+    assert lasting().clearance(tolerance=1e-9, progress=lambda p: False).reason == "cancelled"
 
 
 @pytest.mark.parametrize("ends", [(1, 0), (0, math.inf), (math.nan, 1), 3])
@@ -128,14 +128,24 @@ def test_each_pair_is_answered_for_all_values():
         three().each(within=0.1, required=0.2)
 
 
+def lasting():
+    """Two bodies whose distance, exactly, takes a long search."""
+    builder = impinge.Builder(time=(0, 1), parameters={"a": (0.25, 1.5), "b": (0.25, 1.5), "s": (0, 0.5)})
+    builder.body("rest").surface("ellipsoid", radii=[0.25, 0.3, 0.4], center=[3, 0, 0])
+    moved = builder.body("hand").surface("ellipsoid", radii=[0.25, 0.3, 0.4], center=[2, 0, 0])
+    moved.map("rotate", axis=[1, 1, 0], rate=1, clock="b").map("translate", velocity=[1, 0, 0], clock="s")
+    moved.map("rotate", axis=[0, 0, 1], rate=1, clock="a")
+    return builder.build()
+
+
 def test_each_ends_at_a_limit_as_undecided():
     assert {one.verdict for one in three().each(required=0.3, max_seconds=1e-9)} == {"undecided"}
     assert {one.verdict for one in three(0.5).solve_each(max_seconds=1e-9)} == {"undecided"}
     told = []
-    ended = three().each(tolerance=1e-9, threads=1, progress=lambda p: told.append(p) or False)
+    ended = lasting().each(tolerance=1e-9, threads=1, progress=lambda p: told.append(p) or False)
     assert len(told) == 1 and "cancelled" in {one.reason for one in ended}
     with pytest.raises(ZeroDivisionError):
-        three().each(tolerance=1e-9, progress=lambda p: 1 / 0)
+        lasting().each(tolerance=1e-9, progress=lambda p: 1 / 0)
 
 
 def test_a_profile_slices_time_or_a_parameter():
