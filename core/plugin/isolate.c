@@ -137,8 +137,10 @@ imp_status isolate_create(isolated *i, const imp_value *values, imp_create_error
     const double before = active_callback_limit(seconds > 0 ? clock_seconds() + seconds : 0);
     const imp_status status = create(i, values, why);
     active_callback_limit(before);
-    if (status == SURFACE_LATE) i->end = READING_OUT_OF_TIME;
-    if (status == SURFACE_LATE) return IMP_STATUS_INTERNAL;
+    if (status == SURFACE_LATE) {
+        i->end = READING_OUT_OF_TIME;
+        return IMP_STATUS_INTERNAL;
+    }
     if (status > IMP_STATUS_INTERNAL) name_callback(i);
     return status;
 }

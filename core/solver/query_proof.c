@@ -102,14 +102,12 @@ double proof_within_upper(const imp_clearance *answer)
     return answer->upper + WITHIN_ROUNDING * size;
 }
 
-static imp_code claim_of_clearance(const imp_query *query, proof_claim *claim, bool *contact,
-                                   imp_error *error)
+static imp_code claim_of_clearance(const imp_query *query, proof_claim *claim, imp_error *error)
 {
     imp_clearance answer;
     const imp_code code = clearance_answer(query->clearance, 0, query->reason, &answer, error);
     if (code != IMP_SUCCESS) return code;
     const clearance_proved proved = clearance_what_is_proved(query->clearance);
-    *contact = proved.contact;
     *claim = (proof_claim){.verdict = word_of(answer.verdict),
                            .apart = proved.apart,
                            .from = proved.from,
@@ -130,6 +128,14 @@ static bool has_ended(const imp_query *query)
     return query->candidates.complete && query->reason != IMP_REASON_RUNNING;
 }
 
+proof_search query_proof_search(const imp_query *query)
+{
+    const clearance_search *c = query->clearance;
+    const bool contact = c == NULL || clearance_what_is_proved(c).contact;
+    return (proof_search){&query->candidates,
+                          contact ? &query->proof->contact : &query->proof->distance};
+}
+
 FP_APART static imp_code write_proof(const imp_query *query, const char *stated,
                                      const proof_sink *to, imp_error *error)
 {
@@ -137,27 +143,18 @@ FP_APART static imp_code write_proof(const imp_query *query, const char *stated,
         return error_set(error, IMP_ERROR_USAGE, "proof: this query %s",
                          query->proof == NULL ? "keeps none" : "has not ended");
     proof_claim claim = claim_of_contact(query);
-    bool contact = true;
     imp_code code = IMP_SUCCESS;
-    if (query->clearance != NULL) code = claim_of_clearance(query, &claim, &contact, error);
+    if (query->clearance != NULL) code = claim_of_clearance(query, &claim, error);
     if (code != IMP_SUCCESS) return code;
-    const proof_log *log = contact ? &query->proof->contact : &query->proof->distance;
-    const proof_search search = {&query->candidates, log};
+    const proof_search search = query_proof_search(query);
     proof_pairs pairs;
-    if (log->failed || !proof_pairs_begin(&pairs, query->scene, &search, claim.from, claim.to))
+    if (search.log->failed ||
+        !proof_pairs_begin(&pairs, query->scene, &search, claim.from, claim.to))
         return error_set_memory(error);
     const proof_source trees = {&pairs, proof_pairs_put};
     code = proof_file_write(query->scene, &trees, &claim, stated, to, error);
     proof_pairs_end(&pairs);
     return code;
-}
-
-proof_search query_proof_search(const imp_query *query)
-{
-    const clearance_search *c = query->clearance;
-    const bool contact = c == NULL || clearance_what_is_proved(c).contact;
-    return (proof_search){&query->candidates,
-                          contact ? &query->proof->contact : &query->proof->distance};
 }
 
 imp_code imp_query_write_proof(const imp_query *query, const char *stated, imp_proof_sink write,

@@ -7,7 +7,8 @@ import ctypes as c
 import os
 from dataclasses import replace
 from hashlib import sha256
-from typing import Any, Dict, Iterable, Iterator, List, Mapping, Optional, Sequence, Tuple, Type, TypeVar, cast
+from typing import (Any, Callable, Dict, Iterable, Iterator, List, Mapping, Optional, Sequence, Tuple, Type, TypeVar, Union,
+                    cast)
 
 import numpy
 
@@ -22,13 +23,14 @@ from ._parts import Parts
 from ._query import ProgressSink, Query, Settings, Wanted
 from ._registry import Registry
 from . import _surveys
-from ._survey import State, Survey, parameters_of
+from ._survey import Survey, parameters_of
 from ._surveys import Surveys
 from .errors import UsageError, check
 from .pictures import Format, Picture, draw
 from .results import Clearance, Profile, Result, clearance_of, profile_of, result_of
 
 AnyScene = TypeVar("AnyScene", bound="Scene")
+AnyAnswer = TypeVar("AnyAnswer")
 
 
 class Scene:
@@ -287,32 +289,23 @@ class Scene:
         wanted = self._proof_path(proof)
         if self.parameters:
             with Survey(self._handle, settings) as survey:
-                state = self._run(survey, wanted)
+                state = self._answer(survey, survey.run, wanted)
                 return replace(result_of(self.bodies, survey.result()), parameters=state.values,
                                proved=state.proved)
         with Query(self._handle, settings) as query:
-            return result_of(self.bodies, self._step(query, wanted))
+            return result_of(self.bodies, self._answer(query, query.step, wanted))
 
     def _proof_path(self, proof: Optional[values.Path]) -> Optional[str]:
         return None if proof is None else values.path("proof", proof)
 
-    def _step(self, query: Query, proof: Optional[str]) -> lib.Result:
-        """Finds the answer, and writes its certificate there."""
+    def _answer(self, search: Union[Query, Survey], run: Callable[[], AnyAnswer], proof: Optional[str]) -> AnyAnswer:
+        """Runs the search, and writes its certificate there."""
         if proof is not None:
-            query.keep_proof()
-        answer = query.step()
+            search.keep_proof()
+        answer = run()
         if proof is not None:
-            _files.write(proof, query.certificate(None if self._handle.changes else self._source))
+            _files.write(proof, search.certificate(None if self._handle.changes else self._source))
         return answer
-
-    def _run(self, survey: Survey, proof: Optional[str]) -> State:
-        """Finds the answer for all values, and writes its certificate there."""
-        if proof is not None:
-            survey.keep_proof()
-        state = survey.run()
-        if proof is not None:
-            _files.write(proof, survey.certificate(None if self._handle.changes else self._source))
-        return state
 
     def solve_each(self, *, time: Optional[Sequence[float]] = None, gamma: Optional[float] = None,
                    gamma_clear: Optional[float] = None, max_pairs: Optional[int] = None,
@@ -398,11 +391,11 @@ class Scene:
         path = self._proof_path(proof)
         if self.parameters:
             with Survey(self._handle, settings, Wanted(required, tolerance)) as survey:
-                state = self._run(survey, path)
+                state = self._answer(survey, survey.run, path)
                 return replace(clearance_of(self.bodies, survey.clearance()), parameters=state.values,
                                proved=state.proved)
         with Query(self._handle, settings, Wanted(required, tolerance)) as query:
-            self._step(query, path)
+            self._answer(query, query.step, path)
             return clearance_of(self.bodies, query.clearance(0))
 
     def each(self, *, required: Optional[float] = None, tolerance: Optional[float] = None,
