@@ -284,7 +284,21 @@ kept() {
     [ ! -e part.options ]
     "$IMPINGE" batch scenes.jsonl --resume part --gamma 1e-3 --threads 2 --max-pairs 1M
     [ "$(jq -s -c 'map([.id, .gamma])' part)" = '[[1,0.001],[2,0.001],[3,0.001]]' ]
-    [ "$(cat part.options)" = '{"options":{"gamma":"1e-3"}}' ]
+    [ "$(jq -c .options part.options)" = '{"gamma":"1e-3"}' ]
+}
+
+@test "answers to another input whose scenes have no ids are refused" {
+    { scene && scene; } >scenes.jsonl
+    { scene '"gamma_clear": 1e-7,' && scene; } >others.jsonl
+    "$IMPINGE" batch scenes.jsonl --resume out
+    kept out 'out: its answers were made from another input' \
+        "$IMPINGE" batch others.jsonl --resume out
+    { cat scenes.jsonl && scene; } | sed 's/$/\r/' >longer.jsonl # a line's end is not the scene's
+    "$IMPINGE" batch longer.jsonl --resume out
+    [ "$(wc -l <out)" -eq 3 ]
+    jq -c 'del(.scene)' out.options >old && mv old out.options # a record of an earlier version
+    "$IMPINGE" batch longer.jsonl --resume out
+    [ "$(jq 'has("scene")' out.options)" = false ]
 }
 
 @test "an output that another batch is writing is refused, and the batch named" {

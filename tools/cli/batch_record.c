@@ -36,6 +36,8 @@ static exit_status judge(batch_record *record, const char *out, const arguments 
                        "%s: does not tell how the answers of %s were made; name a new file",
                        record->path, out)
             : run_options_compare(&of, options, json_object_get(now, "options"), args);
+    const char *scene = json_string_value(json_object_get(then, "scene"));
+    if (scene != NULL) snprintf(record->scene, sizeof record->scene, "%s", scene);
     json_decref(then);
     json_decref(now);
     return status;
@@ -59,7 +61,9 @@ exit_status batch_record_open(batch_record *record, const char *out, const argum
 exit_status batch_record_write(batch_record *record, const arguments *args)
 {
     if (record->is_known) return EXIT_ANSWERED;
-    char *line = output_json_line(run_options_json(args)), *text = NULL;
+    json_t *json = run_options_json(args);
+    if (record->scene[0] != '\0') json_object_set_new(json, "scene", json_string(record->scene));
+    char *line = output_json_line(json), *text = NULL;
     const int length = line != NULL ? asprintf(&text, "%s\n", line) : -1;
     free(line);
     if (length < 0) return complain_of_memory(args->verb->name);

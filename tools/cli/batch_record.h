@@ -3,19 +3,22 @@
 #ifndef TOOLS_CLI_BATCH_RECORD_H
 #define TOOLS_CLI_BATCH_RECORD_H
 
+#include "core/common/sha256.h"
 #include "tools/cli/arguments.h"
 
 /* OUT.options: what the answers in OUT were asked with
  * ====================================================
  * One line of JSON in a file beside the output of `batch --resume OUT`: the options that change
- * results, such as --gamma; not limits, threads and the like. It is locked while OUT is written, so
+ * results, such as --gamma, not limits, threads and the like; and the SHA-256 of the first scene,
+ * which tells another input whose scenes have no ids. It is locked while OUT is written, so
  * that of two runs on one output the second is refused. OUT itself cannot be: an MPI library opens
  * and closes it, which would end the lock. */
 
 typedef struct batch_record {
     int descriptor; /* -1: none */
     char *path;
-    bool is_known; /* it has the options of earlier results */
+    bool is_known;           /* it has the options of earlier results */
+    char scene[SHA256_TEXT]; /* hash of the first scene; "": not known */
 } batch_record;
 
 /* Opens and locks the record of the output `out`. Complains, and returns the status, if another

@@ -159,10 +159,34 @@ static bool begin(batch_resume *resume)
     return resume->begun;
 }
 
+/* Whether `scene`, the first one of the input, is the one whose hash the record has; where it has
+ * none, that becomes its hash. Complains if not. */
+static bool is_first_scene(batch_resume *resume, const input_text *scene)
+{
+    char *known = resume->record.scene, own[SHA256_TEXT];
+    uint8_t digest[SHA256_BYTES];
+    size_t length = scene->length;
+    sha256 hash;
+    while (length > 0 && strchr("\r\n", scene->text[length - 1]) != NULL) length -= 1;
+    sha256_begin(&hash);
+    sha256_add(&hash, scene->text, length);
+    sha256_end(&hash, digest);
+    sha256_text(digest, own);
+    if (known[0] == '\0' && !resume->record.is_known) memcpy(known, own, sizeof own);
+    if (known[0] == '\0' || strcmp(known, own) == 0) return true;
+    complain(EXIT_DATA, verb_of(resume),
+             "%s: its answers were made from another input, whose first scene differs (%s); name "
+             "the output of this input, or a new file",
+             resume->path, resume->record.path);
+    return false;
+}
+
 resume_state batch_resume_match(batch_resume *resume, const input_text *scene,
                                 answered_line *answer)
 {
     if (resume->file == NULL) return RESUME_NEW;
+    if (resume->matched == 0 && !resume->begun && !is_first_scene(resume, scene))
+        return RESUME_REFUSED;
     if (resume->matched == resume->answers) return begin(resume) ? RESUME_NEW : RESUME_REFUSED;
     const bool read = input_read_line(resume->file, resume->path, verb_of(resume), &resume->line);
     json_t *done = read ? json_loadb(resume->line.text, resume->line.length, 0, NULL) : NULL;
