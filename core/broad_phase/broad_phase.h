@@ -38,4 +38,10 @@ int broad_phase_sort(swept_box *boxes, size_t count);
 bool broad_phase_visit_box(const swept_box *boxes, size_t count, int axis, size_t k,
                            double gamma_clear, const broad_phase_visitor *visitor);
 
+/* Returns an upper bound of the least distance of two points in two boxes of different groups that
+ * `visit` accepts. INFINITY: there are none, or `next_box` ended it. The boxes are sorted along
+ * `axis`. */
+double broad_phase_least_distance(const swept_box *boxes, size_t count, int axis,
+                                  const broad_phase_visitor *visitor);
+
 #endif

@@ -126,6 +126,7 @@ static imp_code collect_pairs(collection *all, bool *done, imp_error *error)
 {
     *done = true;
     if (scene_counts_pairs(all->scene) && imp_scene_pair_count(all->scene) == 0) return IMP_SUCCESS;
+    if (all->is_nearest && all->list->count > ROOTS_AT_ONCE) collection_limit_distance(all);
     *done = collection_add_pairs(all);
     if (all->out_of_memory) return error_set_memory(error);
     if (*done && scene_has_solids(all->scene)) {
@@ -147,8 +148,9 @@ static bool prepare(collection *all)
                                 ? all->list->at_hand
                                 : malloc(most * sizeof *all->list->candidates);
     if (all->boxes == NULL || all->list->candidates == NULL) return false;
-    all->with_roots = most <= ROOTS_AT_ONCE ||
-                      !(all->gamma_clear < INFINITY); /* all surfaces are in pairs then */
+    all->with_roots =
+        most <= ROOTS_AT_ONCE ||
+        !(all->is_nearest || all->gamma_clear < INFINITY); /* all surfaces are in pairs then */
     if (!parallel_is_on(all->options)) return true;
     all->surfaces = malloc(SURFACES_A_ROUND * sizeof *all->surfaces);
     all->sweep = calloc(TASKS_A_ROUND, sizeof *all->sweep);
@@ -176,6 +178,7 @@ imp_code candidates_find(candidate_list *list, imp_scene *scene, const imp_optio
                       .limit = limit,
                       .stats = stats,
                       .gamma_clear = search->gamma_clear,
+                      .is_nearest = search->is_nearest,
                       .list = list};
     bool done = false;
     imp_code code =

@@ -43,6 +43,7 @@ typedef struct candidate_limit {
 /* Which pairs are collected, and how. */
 typedef struct candidate_search {
     double gamma_clear;
+    bool is_nearest; /* pairs may be left out that are farther than another pair at all times */
     bool may_rest; /* pairs that turn within themselves may have trees of one moment: in a query of
                       all times, not of slices */
     bool in_parts; /* candidates_frame is asked for frames and missing roots, for some pairs at a

@@ -138,6 +138,36 @@ bool collection_add_pairs(collection *all)
     return done && !collection_must_end(all); /* counts the bytes of the last pairs */
 }
 
+/* --- The nearest pair ------------------------------------------------------------------------- */
+
+static bool exists_always(const collection *all, const candidate *c)
+{
+    double lo[3], hi[3];
+    surface_domain(scene_surface(all->scene, c->body, c->surface), lo, hi);
+    return lo[2] <= all->options->t_start && hi[2] >= all->options->t_end;
+}
+
+static bool are_met(void *context, size_t first, size_t second)
+{
+    const collection *all = context;
+    candidate_pair p;
+    return make_pair(all, first, second, &p) && exists_always(all, p.side[0]) &&
+           exists_always(all, p.side[1]);
+}
+
+/* Lemma. Some pair is within `least` at every time, so that a pair farther than that is at no time
+ * the nearest, nor the first that comes nearer than what is required: if that is more than `least`,
+ * the former pair is nearer from the start. The factor outweighs the rounding of motions that all
+ * trees leave out. */
+void collection_limit_distance(collection *all)
+{
+    const broad_phase_visitor visitor = {go_on, are_met, all};
+    const int axis = broad_phase_sort(all->boxes, all->list->count);
+    double least = broad_phase_least_distance(all->boxes, all->list->count, axis, &visitor);
+    least *= 1 + 0x1p-20;
+    if (least < all->gamma_clear) all->gamma_clear = least;
+}
+
 /* --- Pairs of solid bodies -------------------------------------------------------------------- */
 
 /* The first candidate of a body, and a box around all of them. */

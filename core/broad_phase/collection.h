@@ -45,7 +45,8 @@ enum { SURFACES_PER_CHECK = 8, BYTES_PER_CHECK = 1 << 15, BOXES_PER_CHECK = 32 }
 enum { BOXES_AT_HAND = 4 }; /* boxes stored in the collection itself */
 
 /* With more surfaces, a root is made only once its surface is in a pair, although its inclusion is
- * then computed twice: most surfaces of large scenes are in no pair. */
+ * then computed twice: most surfaces of large scenes are in no pair. With more, too, pairs that are
+ * farther than the nearest two boxes are left out where only the nearest pair is sought. */
 enum { ROOTS_AT_ONCE = 512 };
 
 typedef struct collection {
@@ -54,6 +55,7 @@ typedef struct collection {
     const candidate_limit *limit;
     imp_stats *stats;
     double gamma_clear;
+    bool is_nearest;      /* of the candidate_search */
     size_t common_motion; /* number of last maps of all surfaces that all trees leave out */
     double slip_most;     /* of pairs searched at one moment; < 0: none are; length */
     swept_box *boxes, at_hand[BOXES_AT_HAND];
@@ -107,6 +109,9 @@ void collection_count_rest(collection *all);
 
 /* Adds all pairs. False: no memory (all->out_of_memory), or a limit was reached first. */
 bool collection_add_pairs(collection *all);
+
+/* Makes gamma_clear no larger than it needs to be where only the nearest pairs are sought. */
+void collection_limit_distance(collection *all);
 
 /* Adds a pair of surfaces for each solid body and each body whose boxes have a point in common with
  * its boxes, where no surfaces of the two come near each other: one may be inside the other. *done

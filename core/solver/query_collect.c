@@ -58,16 +58,24 @@ static bool may_rest(const imp_query *query)
     return query->clearance == NULL || clearance_is_of_all_times(query->clearance);
 }
 
+/* Whether only the nearest pair of all is sought, at each time. */
+static bool is_nearest(const imp_query *query)
+{
+    return query->clearance != NULL && !clearance_is_each(query->clearance);
+}
+
 /* If a limit ends it, the next step starts it again. For a minimum distance without `within`, all
- * surfaces are candidates, however far apart. */
+ * surfaces are candidates, however far apart, but where there are many. */
 imp_code query_collect(imp_query *query, double start, imp_error *error)
 {
     const double near =
         query->clearance == NULL ? query->impact.gamma_clear : clearance_near(query->clearance);
     collecting c = {query, query->stats.seconds, start, IMP_REASON_NONE};
     const candidate_limit limit = {limit_is_reached, limit_is_near, &c};
-    const candidate_search search = {
-        .gamma_clear = near, .may_rest = may_rest(query), .in_parts = query->divided > 0};
+    const candidate_search search = {.gamma_clear = near,
+                                     .is_nearest = is_nearest(query),
+                                     .may_rest = may_rest(query),
+                                     .in_parts = query->divided > 0};
     const imp_code code = candidates_find(&query->candidates, query->scene, &query->options,
                                           &search, &limit, &query->stats, error);
     query->impact.gamma_clear = query_searched_gamma_clear(query, query->gamma_clear);

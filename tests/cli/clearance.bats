@@ -362,6 +362,29 @@ grid() {
     json '(.pairs | length) == 22 * 22 * 11 and .stats.bytes < 64e6'
 }
 
+@test "the nearest of thousands of bodies are found in little memory" {
+    # Two equal bodies that ignore each other say nothing of the nearest.
+    grid 14 | jq -c '(.bodies[7].surfaces[0].center[0]) -= 0.3 |
+        .bodies[100] += {name: "x"} | .bodies[200] = (.bodies[100] | .name = "y") |
+        .ignore = [["x", "y"]]' >grid.json
+    run -0 "$IMPINGE" clearance grid.json --max-bytes 100M --json
+    json '.lower > 0.69 and .upper < 0.71'
+    run -1 "$IMPINGE" clearance grid.json --max-bytes 100M --require 0.8 --json
+    json '.t_violated == 0'
+    run -0 "$IMPINGE" clearance grid.json --max-bytes 100M --require 0.6
+    run -0 "$IMPINGE" clearance grid.json --profile 3 --json
+    tail -n 1 <<<"$output" | jq -e '[.slices[].lower | . > 0.69] | length == 3 and all'
+}
+
+@test "a ball inside a solid body touches it among hundreds of other bodies" {
+    grid 9 | jq -c '.bodies[] += {group: ["grid"]} |
+        .bodies += [{name: "case", solid: true, surfaces: [{type: "sphere", radius: 100}]},
+        {name: "seed", surfaces: [{type: "sphere", radius: 0.01, center: [50,0,0]}]}] |
+        .ignore = [["case", "grid"]]' >inside.json
+    run -0 "$IMPINGE" clearance inside.json --json
+    json '.upper == 0 and ([.a.body, .b.body] | sort) == ["case", "seed"]'
+}
+
 @test "a million slices end at a limit, in one line for the time that is left" {
     run -3 "$IMPINGE" clearance "${passing[@]}" --profile 1000000 --max-bytes 8M
     [[ ${lines[-1]} == 0.0*,1,0,,,* ]] && [ "${#lines[@]}" -lt 100000 ]

@@ -98,5 +98,47 @@ START_TEST(the_sweep_runs_along_the_axis_that_is_not_crowded)
 }
 END_TEST
 
+/* Boxes whose numbers have an even sum are not accepted, nor are boxes of one group. */
+static bool accept(void *context, size_t a, size_t b)
+{
+    (void)context;
+    return (a + b) % 2 != 0;
+}
+
+static double greatest_distance(const swept_box *a, const swept_box *b)
+{
+    double square = 0;
+    for (int i = 0; i < 3; ++i) {
+        const double up = b->hi[i] - a->lo[i], down = a->hi[i] - b->lo[i];
+        square += up > down ? up * up : down * down;
+    }
+    return sqrt(square);
+}
+
+START_TEST(the_least_distance_bounds_that_of_some_boxes)
+{
+    uint64_t state = suite_seed();
+    const broad_phase_visitor visitor = {go_on, accept, NULL};
+    const uint64_t groups[4] = {1, 2, 7, 1 << 30};
+    for (int round = 0; round < suite_times(300); ++round) {
+        swept_box boxes[BOXES];
+        draw(boxes, round % 3, groups[round % 4], &state);
+        const int axis = broad_phase_sort(boxes, BOXES);
+        double expected = INFINITY;
+        for (size_t a = 0; a < BOXES; ++a)
+            for (size_t b = a + 1; b < BOXES; ++b) {
+                const double most = greatest_distance(&boxes[a], &boxes[b]);
+                if (boxes[a].group != boxes[b].group && most < expected &&
+                    accept(NULL, boxes[a].owner, boxes[b].owner))
+                    expected = most;
+            }
+        const double least = broad_phase_least_distance(boxes, BOXES, axis, &visitor);
+        ck_assert(least == expected || (expected <= least && least <= expected * (1 + 1e-14)));
+        ck_assert(groups[round % 4] > 1 || least == INFINITY);
+    }
+}
+END_TEST
+
 SUITE_MAIN("broad phase", each_two_near_boxes_are_visited_once_along_any_axis,
-           the_sweep_runs_along_the_axis_that_is_not_crowded)
+           the_sweep_runs_along_the_axis_that_is_not_crowded,
+           the_least_distance_bounds_that_of_some_boxes)
