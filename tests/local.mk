@@ -106,6 +106,7 @@ check_suites = \
     tests/unit/test_survey_state \
     tests/unit/test_clocks \
     tests/unit/test_survey_samples \
+    tests/unit/test_survey_descent \
     tests/unit/test_spreads \
     tests/unit/test_survey_forms \
     tests/unit/test_threads \
@@ -558,7 +559,8 @@ noinst_HEADERS += \
     tests/support/solid_helpers.h \
     tests/support/sphere_scenes.h \
     tests/support/suite.h \
-    tests/support/survey_helpers.h
+    tests/support/survey_helpers.h \
+    tests/support/survey_scenes.h
 noinst_HEADERS += tests/plugins/mistakes.h tests/plugins/pipe.h tests/plugins/slab.h tests/plugins/slack_net.h tests/plugins/stack.h \
     tests/support/model_value.h
 
