@@ -228,6 +228,27 @@ named() {
     done
 }
 
+@test "a crash of a thread whose plugin is no longer loaded is told" {
+    has_sanitizers && skip 'they catch crashes themselves'
+    # The program waits before it ends, so that the thread runs on without its code.
+    cat >wait.c <<'END'
+#define _GNU_SOURCE
+#include <dlfcn.h>
+#include <unistd.h>
+int dlclose(void *library)
+{
+    int (*real)(void *) = (int (*)(void *))dlsym(RTLD_NEXT, "dlclose");
+    const int result = real(library);
+    usleep(200000);
+    return result;
+}
+END
+    $CC -shared -fPIC -o wait.so wait.c -ldl
+    LD_PRELOAD=$PWD/wait.so run -5 --separate-stderr hostile eval unloaded
+    committed eval unloaded
+    [[ $stderr == "impinge: crashed in code that is no longer loaded"*"run with --isolate all" ]]
+}
+
 @test "isolated, whatever a callback does ends the query, not the host, and is laid at the door of the type" {
     local phase sin end='crashes or ends its process, in which it runs isolated'
     for phase in create domain eval rate include; do

@@ -79,6 +79,19 @@ static void leave_crashing_thread(void)
     if (pthread_create(&thread, NULL, crash_later, NULL) == 0) pthread_detach(thread);
 }
 
+/* Crashes when the plugin's code is no longer there. */
+static void *run_on(void *unused)
+{
+    for (;;) sched_yield();
+    return unused;
+}
+
+static void leave_running_thread(void)
+{
+    pthread_t thread;
+    if (pthread_create(&thread, NULL, run_on, NULL) == 0) pthread_detach(thread);
+}
+
 static void wait_for_crash(void)
 {
     atomic_store(&returned, true);
@@ -193,6 +206,7 @@ static void commit(const char *sin)
         for (;;) continue; /* no compiler may leave out a loop whose condition is constant */
     if (strcmp(sin, "fork") == 0) fork();
     if (strcmp(sin, "later") == 0) leave_crashing_thread();
+    if (strcmp(sin, "unloaded") == 0) leave_running_thread();
     if (strcmp(sin, "thread_data") == 0) leave_thread_data();
     if (strcmp(sin, "longjmp") == 0) jump();
     if (strcmp(sin, "throw") == 0 && hostile_throw != NULL) hostile_throw();

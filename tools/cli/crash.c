@@ -178,9 +178,21 @@ static void blame_if_on_stack(void)
     }
 }
 
+/* The stack cannot be read where it begins in code that is no longer loaded. */
+static void on_second_crash(int number)
+{
+    line l = {.used = 0};
+    add(&l, "crashed in code that is no longer loaded, as in a thread that a plugin left; run with "
+            "--isolate all");
+    (void)number;
+    end_with(&l);
+}
+
 static void on_crash(int number)
 {
     blame_if_in_call(NULL);
+    signal(SIGSEGV, on_second_crash);
+    signal(SIGBUS, on_second_crash);
     blame_if_on_stack();
     if (prepared == getpid()) {
         line l = {.used = 0};
@@ -285,7 +297,7 @@ void crash_prepare(bool json)
 {
     static char room[SIGNAL_STACK];
     const stack_t stack = {.ss_sp = room, .ss_size = sizeof room};
-    struct sigaction action = {.sa_handler = on_crash, .sa_flags = SA_ONSTACK};
+    struct sigaction action = {.sa_handler = on_crash, .sa_flags = SA_ONSTACK | SA_NODEFER};
     prepared = getpid();
     json_wanted = json;
     note_objects();
