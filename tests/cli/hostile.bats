@@ -228,7 +228,7 @@ named() {
     done
 }
 
-@test "a crash of a thread whose plugin is no longer loaded is told" {
+@test "a crash of a thread whose plugin is no longer loaded is reported" {
     has_sanitizers && skip 'they catch crashes themselves'
     # The program waits before it ends, so that the thread runs on without its code.
     cat >wait.c <<'END'
