@@ -118,6 +118,7 @@ mpfi_suites = \
     tests/fuzz/certificate \
     tests/unit/test_certificate_nets \
     tests/unit/test_certificates \
+    tests/unit/test_certificate_round \
     tests/unit/test_certificate_changes \
     tests/unit/test_plugins \
     tests/unit/test_checker \
@@ -214,6 +215,8 @@ tests_unit_test_certificate_nets_CPPFLAGS = $(AM_CPPFLAGS) -DPROOF_DOUBLE
 tests_unit_test_certificate_nets_LDADD = tools/libverify.la $(LDADD)
 tests_unit_test_certificates_CPPFLAGS = $(AM_CPPFLAGS) -DPROOF_DOUBLE
 tests_unit_test_certificates_LDADD = tools/libverify.la $(LDADD)
+tests_unit_test_certificate_round_CPPFLAGS = $(AM_CPPFLAGS) -DPROOF_DOUBLE
+tests_unit_test_certificate_round_LDADD = tools/libverify.la $(LDADD)
 tests_unit_test_certificate_changes_CPPFLAGS = $(AM_CPPFLAGS) -DPROOF_DOUBLE
 tests_unit_test_certificate_changes_LDADD = tools/libverify.la $(LDADD)
 tests_unit_test_expression_bounds_SOURCES = tests/unit/test_expression_bounds.c \

@@ -126,6 +126,27 @@ static inline bool verify(const certificate *c, unsigned long effort, statement 
     return verify_bytes(all, c->size + SHA256_BYTES, effort, s, fault, assumes);
 }
 
+/* Requires that the certificate holds, or (why not NULL) is refused in these words. */
+static inline void require_within(const certificate *c, unsigned long effort, const char *why)
+{
+    statement s;
+    char fault[1400];
+    bool assumes;
+    const bool good = verify(c, effort, &s, fault, &assumes);
+    if (why == NULL) {
+        ck_assert_msg(good && !assumes, "%s", fault);
+    } else {
+        ck_assert_msg(!good, "accepted: %s: %.*s", why, (int)c->size, (const char *)c->bytes);
+        ck_assert_msg(strstr(fault, why) != NULL, "%s", fault);
+    }
+    statement_free(&s);
+}
+
+static inline void require(const certificate *c, const char *why)
+{
+    require_within(c, EFFORT, why);
+}
+
 /* A shaft that turns in its bore: no axis parts more than a strip of them. */
 static inline certificate shaft_made(void)
 {

@@ -239,6 +239,8 @@ void prover_forget(prover *p)
 {
     p->centre_count = 0;
     p->wasted = 0;
+    p->has_missed = false;
+    p->kept[0].is_kept = p->kept[1].is_kept = false;
 }
 
 bool prove_apart(prover *p, const cell *c)

@@ -15,6 +15,19 @@ typedef struct cell {
     double t[2];
 } cell;
 
+/* What a side's areas were made from, about a centre, for the next test that asks the same of it;
+ * and what is known of them before any was divided. */
+typedef struct kept_side {
+    bool is_kept;
+    size_t piece;
+    box3 where;
+    uint64_t stamp; /* of the values of clocks */
+    centre about;
+    aim aim;
+    bool is_sized; /* what follows is known */
+    double size[VARIABLES], clocks[CLOCKS_MAX], width;
+} kept_side;
+
 typedef struct prover {
     place side[2];
     values when;              /* of the cell; T is the cell's */
@@ -25,13 +38,16 @@ typedef struct prover {
     double axis[3];                  /* hint; 0: none */
     memory *known;
     areas areas[2];    /* of either side; to be freed */
+    kept_side kept[2]; /* what they are of */
     centre centres[2]; /* of either side, as guessed in this leaf or before */
     int centre_count;
     size_t wasted;    /* boxes of centres, since one of them parted a cell */
     bool has_guessed; /* in this leaf */
-    cell tried;       /* of the last test, and */
-    aim aim;          /* what it tried there, for A */
-    cell worst;       /* where it ended, */
+    bool has_missed;  /* the last guess, of these pieces, found that one is not round */
+    size_t missed[2];
+    cell tried; /* of the last test, and */
+    aim aim;    /* what it tried there, for A */
+    cell worst; /* where it ended, */
     values worst_when;
     double found;    /* what was found there: two points so near, or INFINITY: nothing but */
     const char *why; /* this */

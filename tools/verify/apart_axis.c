@@ -20,9 +20,27 @@ apart_outcome apart_fail(prover *p, const cell *c, double found, const char *why
     return STUCK;
 }
 
+/* How much a side depends on each variable and clock, by the areas it has now; once for areas that
+ * are kept. */
+static void size_side(const prover *p, int side, const aim *a, const limits *r, kept_side *to)
+{
+    if (to->is_sized) return;
+    memset(to->size, 0, sizeof to->size);
+    memset(to->clocks, 0, sizeof to->clocks);
+    for (size_t k = 0; k < p->areas[side].count; ++k) {
+        double size[VARIABLES], clocks[CLOCKS_MAX];
+        areas_sizes(&p->areas[side], k, a, size, clocks);
+        for (size_t i = 0; i < p->when.count; ++i)
+            to->clocks[i] = proof_larger(to->clocks[i], clocks[i]);
+        for (int j = 0; j < VARIABLES; ++j) to->size[j] = proof_larger(to->size[j], size[j]);
+    }
+    to->width = r->upper[0] - r->least;
+    to->is_sized = true;
+}
+
 /* Where an axis does it at one end of the time alone, what changes in between is due to time. Else
  * what is linear in time needs no division. */
-static void take_trial(const prover *p, const aim a[2], const limits r[2], double limit,
+static void take_trial(prover *p, const aim a[2], const limits r[2], double limit,
                        apart_trial *tried)
 {
     const double before = r[0].ends[0] + r[1].ends[0], after = r[0].ends[1] + r[1].ends[1];
@@ -30,19 +48,12 @@ static void take_trial(const prover *p, const aim a[2], const limits r[2], doubl
     tried->time = turns && fabs(after - before) < INFINITY ? 0.5 * fabs(after - before) : 0;
     for (size_t k = 0; k < p->when.count; ++k) tried->clocks[k] = 0;
     for (int side = 0; side < 2; ++side) {
-        double *most = tried->size[side], bend = 0, by_clocks[CLOCKS_MAX] = {0};
-        most[U] = most[V] = 0;
-        for (size_t k = 0; k < p->areas[side].count; ++k) {
-            double size[VARIABLES], clocks[CLOCKS_MAX];
-            areas_sizes(&p->areas[side], k, &a[side], size, clocks);
-            for (size_t i = 0; i < p->when.count; ++i)
-                by_clocks[i] = proof_larger(by_clocks[i], clocks[i]);
-            for (int j = 0; j < T; ++j) most[j] = proof_larger(most[j], size[j]);
-            bend = proof_larger(bend, size[T]);
-        }
-        tried->time += bend;
-        for (size_t i = 0; i < p->when.count; ++i) tried->clocks[i] += by_clocks[i];
-        tried->width[side] = r[side].upper[0] - r[side].least;
+        kept_side *of = &p->kept[side];
+        size_side(p, side, &a[side], &r[side], of);
+        for (int j = 0; j < T; ++j) tried->size[side][j] = of->size[j];
+        tried->time += of->size[T];
+        for (size_t i = 0; i < p->when.count; ++i) tried->clocks[i] += of->clocks[i];
+        tried->width[side] = of->width;
     }
 }
 
@@ -77,17 +88,53 @@ static margin take_margin(const limits r[2], double limit)
     return m;
 }
 
+static bool is_same_centre(const centre *a, const centre *b)
+{
+    return a->is_line == b->is_line && memcmp(a->c, b->c, sizeof a->c) == 0 &&
+           memcmp(a->d, b->d, sizeof a->d) == 0;
+}
+
+static bool asks_same(const kept_side *a, const kept_side *b)
+{
+    return a->piece == b->piece && a->stamp == b->stamp && a->aim.n[0] == b->aim.n[0] &&
+           memcmp(&a->aim.at, &b->aim.at, sizeof a->aim.at) == 0 && a->aim.slip == b->aim.slip &&
+           memcmp(&a->where, &b->where, sizeof a->where) == 0 &&
+           is_same_centre(&a->about, &b->about);
+}
+
+/* Makes the areas of a side. Where the test before asked the same of it, they are those that it has
+ * left: they cover the side, and their bounds do not depend on the other one. So the inside of a
+ * bore is divided once for all strips of its shaft. */
 static const char *begin_areas(prover *p, const cell *c, int side, const aim *a)
 {
     const char *why = NULL;
-    areas_begin(&p->areas[side], p->known);
+    kept_side *last = &p->kept[side], now = {.is_kept = a->about != NULL};
     for (size_t k = 0; k < c->count[side] && why == NULL; ++k) {
         place of;
         box3 where = cell_area(p, c, side, k, &of);
-        if (a->about != NULL && !isnan(a->at)) where.lo[T] = where.hi[T] = a->at;
+        if (a->about != NULL) {
+            if (!isnan(a->at)) where.lo[T] = where.hi[T] = a->at;
+            now.piece = of.piece, now.where = where, now.stamp = p->when.stamp;
+            now.about = *a->about, now.aim = *a;
+            if (last->is_kept && asks_same(last, &now)) return NULL;
+        }
+        if (k == 0) areas_begin(&p->areas[side], p->known);
         why = areas_add(&p->areas[side], &of, &where, a);
     }
+    *last = now;
     return why;
+}
+
+/* Divides an area. False: the test ends with *outcome; what lacks a part is not kept. */
+static bool divide_area(prover *p, const cell *c, int side, size_t index, const aim *a,
+                        apart_outcome *outcome)
+{
+    bool divided;
+    areas *of = &p->areas[side];
+    const char *why = areas_divide(of, index, a, &divided);
+    *outcome = why != NULL ? apart_fail(p, c, INFINITY, why) : DIVIDE;
+    if (why != NULL || of->cut.along >= 0) p->kept[side].is_kept = false;
+    return why == NULL && of->cut.along < 0 && divided;
 }
 
 /* Lemma. |f(B) - f(A)| <= change |B - A| for n.x, which changes by |n| for a unit of length, and
@@ -104,22 +151,26 @@ static apart_outcome try_aims(prover *p, const cell *c, const aim a[2], double c
     tried->cut.along = -1;
     for (int side = 0; side < 2; ++side) {
         const char *why = begin_areas(p, c, side, &a[side]);
+        if (why == NULL && p->areas[side].cut.along >= 0) tried->cut = p->areas[side].cut;
+        if (why != NULL || p->areas[side].cut.along >= 0) p->kept[side].is_kept = false;
         if (why != NULL) return apart_fail(p, c, INFINITY, why);
-        if (p->areas[side].cut.along >= 0) tried->cut = p->areas[side].cut;
     }
-    for (int step = 0;; ++step) {
-        if (tried->cut.along >= 0) return DIVIDE;
+    if (tried->cut.along >= 0) return DIVIDE;
+    const size_t begun = c->count[0] + c->count[1];
+    for (bool is_first = true;; is_first = false) {
+        const size_t boxes = p->areas[0].count + p->areas[1].count;
         if (p->areas[0].count == 0 || p->areas[1].count == 0) return APART; /* it does not exist */
         const limits r[2] = {areas_limits(&p->areas[0]), areas_limits(&p->areas[1])};
         const margin m = take_margin(r, limit);
         if (m.low >= 0) return APART;
-        if (step == 0) {
+        if (is_first) {
             tried->left = m.most > 0 ? m.low / m.most : -INFINITY;
             take_trial(p, a, r, limit, tried);
         }
         const double slips =
             0.5 * (a[0].slip / fabs(r[0].ends[0]) + a[1].slip / fabs(r[1].ends[0]));
         if (m.most > 0 && slips > 0.5 * m.most) return tried->time = INFINITY, DIVIDE;
+        const int step = boxes > begun ? (int)(boxes - begun) : 0;
         if (!(m.most > 0) || is_hopeless(step, a[0].about != NULL, m.low, m.most)) return DIVIDE;
         double lacks[2];
         for (int side = 0; side < 2; ++side)
@@ -127,10 +178,8 @@ static apart_outcome try_aims(prover *p, const cell *c, const aim a[2], double c
                 r[side].upper[m.worst] -
                 (r[side].ends[0] + (r[side].ends[1] - r[side].ends[0]) * m.worst / (NET_TIMES - 1));
         const int side = lacks[1] > lacks[0];
-        bool divided;
-        const char *why = areas_divide(&p->areas[side], r[side].worst[m.worst], &a[side], &divided);
-        if (why != NULL) return apart_fail(p, c, INFINITY, why);
-        if (!divided) return DIVIDE;
+        apart_outcome outcome;
+        if (!divide_area(p, c, side, r[side].worst[m.worst], &a[side], &outcome)) return outcome;
     }
 }
 
@@ -146,17 +195,21 @@ apart_outcome apart_by_axis(prover *p, const cell *c, const double n[3], apart_t
 }
 
 /* Tests of a leaf before its surfaces' centres are guessed; and boxes that centres may waste. */
-enum { TESTS_BEFORE_CENTRES = 6, WASTE_MOST = 1 << 15 };
+enum { TESTS_BEFORE_CENTRES = 3, WASTE_MOST = 1 << 15 };
 
 static void guess_centres(prover *p, const cell *c)
 {
     bool found = true;
-    for (int side = 0; side < 2; ++side) {
-        const place of = cell_piece(p, side, c->first[side]);
-        found = found && centre_guess(p->known, &of, middle(c->t[0], c->t[1]), &p->centres[side]);
-    }
+    place of[2];
+    for (int side = 0; side < 2; ++side) of[side] = cell_piece(p, side, c->first[side]);
     p->has_guessed = true;
+    if (p->has_missed && p->missed[0] == of[0].piece && p->missed[1] == of[1].piece) return;
+    const double t = middle(c->t[0], c->t[1]);
+    for (int side = 0; side < 2; ++side)
+        found = found && centre_guess(p->known, &of[side], t, &p->centres[side]);
     p->centre_count = found && centre_is_shared(&p->centres[0], &p->centres[1]) ? 2 : 0;
+    p->has_missed = !found;
+    for (int side = 0; side < 2; ++side) p->missed[side] = of[side].piece;
 }
 
 apart_outcome apart_by_centres(prover *p, const cell *c, apart_trial *tried)

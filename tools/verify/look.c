@@ -64,6 +64,23 @@ static const kept_motion *look_motion(memory *all, const place *of, double lo, d
     return k;
 }
 
+const form_changes *look_changes(memory *all, const place *of, double lo, double hi,
+                                 const double c[3], ld_interval e[3][3])
+{
+    const double times[2] = {lo, hi};
+    kept_changes *k = &all->changes[mixed(place_key(of), times, 2) & (KEPT_CHANGES - 1)];
+    if (k->chain == of->chain && k->maps == of->maps && k->stamp == of->when->stamp &&
+        k->lo == lo && k->hi == hi && memcmp(k->c, c, sizeof k->c) == 0 &&
+        memcmp(k->e, e, sizeof k->e) == 0)
+        return &k->found;
+    k->chain = of->chain, k->maps = of->maps, k->stamp = of->when->stamp;
+    k->lo = lo, k->hi = hi;
+    memcpy(k->c, c, sizeof k->c);
+    memcpy(k->e, e, sizeof k->e);
+    motion_form_changes(of, lo, hi, c, e, &k->found);
+    return &k->found;
+}
+
 static void take_jets(const place *of, const box3 *where, kept_net *k)
 {
     jet wide[3], centre[3];

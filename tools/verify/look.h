@@ -7,7 +7,7 @@
 
 /* Enclosures, and those that were computed before */
 
-enum { KEPT = 1024, KEPT_NETS = 1024, KEPT_MOTIONS = 256 }; /* powers of 2 */
+enum { KEPT = 1024, KEPT_NETS = 1024, KEPT_MOTIONS = 256, KEPT_CHANGES = 16 }; /* powers of 2 */
 
 typedef struct kept {
     const chain *chain; /* NULL: none */
@@ -43,10 +43,20 @@ typedef struct kept_motion {
     motion motion; /* its ways to be freed */
 } kept_motion;
 
+typedef struct kept_changes {
+    const chain *chain; /* NULL: none */
+    size_t maps;
+    uint64_t stamp;
+    double lo, hi, c[3];
+    ld_interval e[3][3];
+    form_changes found;
+} kept_changes;
+
 typedef struct memory {
     kept jets[KEPT];
     kept_net nets[KEPT_NETS];
     kept_motion motions[KEPT_MOTIONS];
+    kept_changes changes[KEPT_CHANGES];
 } memory;
 
 void look_free(memory *all); /* may be NULL */
@@ -55,6 +65,10 @@ void look_free(memory *all); /* may be NULL */
 
 /* Encloses a box of a piece in jets. */
 const kept *look_jets(memory *all, const place *of, const box3 *where);
+
+/* Bounds how much a quadratic form about c changes over some times. */
+const form_changes *look_changes(memory *all, const place *of, double lo, double hi,
+                                 const double c[3], ld_interval e[3][3]);
 
 /* Encloses a box of a piece in control points. ENCLOSED, with a net NULL: it has no bounds. */
 enclosed look_net(memory *all, const place *of, const box3 *where, form *found, split *divide);

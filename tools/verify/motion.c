@@ -290,7 +290,8 @@ static jet form_of(const jet n[3][4], ld_interval e[3][3], int i, int k)
     return sum;
 }
 
-/* Computes N^T E N over some times. False: the maps may not be affine there. */
+/* Computes N^T E N, which is symmetric like E, over some times. False: the maps may not be affine
+ * there. */
 static bool take_form(const place *p, double lo, double hi, const double c[3], ld_interval e[3][3],
                       ld_interval g[4][4])
 {
@@ -306,38 +307,47 @@ static bool take_form(const place *p, double lo, double hi, const double c[3], l
         n->centre[i][3] = jet_sub(&n->centre[i][3], &at);
     }
     for (int i = 0; i < 4 && is_one; ++i)
-        for (int k = 0; k < 4; ++k) {
+        for (int k = i; k < 4; ++k) {
             const jet wide = form_of(n->wide, e, i, k), narrow = form_of(n->centre, e, i, k);
-            g[i][k] = jet_values(&wide, &narrow, n->offset);
+            g[i][k] = g[k][i] = jet_values(&wide, &narrow, n->offset);
         }
     free(all.ways);
     return is_one;
 }
 
-enum { SLIP_PARTS = 16 };
+void motion_form_changes(const place *p, double lo, double hi, const double c[3],
+                         ld_interval e[3][3], form_changes *to)
+{
+    const double at = middle(lo, hi);
+    ld_interval before[4][4], now[4][4];
+    double from = lo;
+    *to = (form_changes){.are_known = p->maps == 0 || take_form(p, at, at, c, e, before)};
+    for (int n = 0; n < CHANGE_PARTS && to->are_known && p->maps > 0; ++n) {
+        const double share = (n + 1.0) / CHANGE_PARTS;
+        const double end = n + 1 < CHANGE_PARTS ? proof_smaller(lo + (hi - lo) * share, hi) : hi;
+        to->are_known = take_form(p, from, end, c, e, now);
+        for (int i = 0; i < 4 && to->are_known; ++i)
+            for (int k = 0; k < 4; ++k)
+                to->most[n][i][k] = ld_interval_mag(ld_interval_sub(now[i][k], before[i][k]));
+        from = end;
+    }
+}
 
 /* Lemma. x^T E x = h^T N^T E N h for h = (p, 1), which changes by no more than the sum of the
  * changes of the elements of N^T E N, times |h| |h|. Each time is in one of the parts. */
-double motion_slip_upper(const place *p, double lo, double hi, const double c[3],
-                         ld_interval e[3][3], const double size[3])
+double form_change_upper(const form_changes *s, const double size[3])
 {
-    const double h[4] = {size[0], size[1], size[2], 1}, at = middle(lo, hi);
-    ld_interval before[4][4], now[4][4];
-    double most = 0, from = lo;
-    if (p->maps == 0) return 0;
-    if (!take_form(p, at, at, c, e, before)) return INFINITY;
-    for (int n = 1; n <= SLIP_PARTS; ++n) {
-        const double to = n < SLIP_PARTS ? proof_smaller(lo + (hi - lo) * n / SLIP_PARTS, hi) : hi;
+    const double h[4] = {size[0], size[1], size[2], 1};
+    double most = 0;
+    if (!s->are_known) return INFINITY;
+    for (int n = 0; n < CHANGE_PARTS; ++n) {
         ld_interval sum = ld_interval_of(0);
-        if (!take_form(p, from, to, c, e, now)) return INFINITY;
         for (int i = 0; i < 4; ++i)
             for (int k = 0; k < 4; ++k) {
-                const ld_interval change = ld_interval_sub(now[i][k], before[i][k]);
                 const ld_interval by = ld_interval_mul(ld_interval_of(h[i]), ld_interval_of(h[k]));
-                sum = ld_interval_add(sum, ld_interval_mul(ld_interval_abs(change), by));
+                sum = ld_interval_add(sum, ld_interval_mul(ld_interval_of(s->most[n][i][k]), by));
             }
-        most = proof_larger(sum.hi, most);
-        from = to;
+        if (!(sum.hi <= most)) most = sum.hi;
     }
     return most;
 }
@@ -362,13 +372,28 @@ static double deviation(const part *p, double lo, double hi, jet room[])
     if (!p->is_affine) return INFINITY;
     take_affine(p, lo, hi, room, &a);
     double most = 0;
-    for (int i = 0; i < 3; ++i) {
-        ld_interval row = ld_interval_of(0);
-        for (int k = 0; k < 3; ++k) {
+    ld_interval size[3][3];
+    for (int i = 0; i < 3; ++i)
+        for (int k = i; k < 3; ++k) {
             const jet over = gram(a.wide, i, k), middle = gram(a.centre, i, k);
-            row = ld_interval_add(row, ld_interval_abs(jet_values(&over, &middle, a.offset)));
+            size[i][k] = size[k][i] = ld_interval_abs(jet_values(&over, &middle, a.offset));
         }
+    for (int i = 0; i < 3; ++i) {
+        const ld_interval row =
+            ld_interval_add(ld_interval_add(size[i][0], size[i][1]), size[i][2]);
         if (!(row.hi <= most)) most = row.hi;
+    }
+    return most;
+}
+
+/* The greatest deviation of the parts that hold all of the times. */
+static double deviation_of_parts(const piece *p, const part *first, const box3 *times, double lo,
+                                 double hi, jet room[])
+{
+    double most = 0;
+    for (const part *q = first; q != NULL; q = enclose_next_part(p, q, times)) {
+        const double d = deviation(q, lo, hi, room);
+        if (!(d <= most)) most = d;
     }
     return most;
 }
@@ -386,14 +411,11 @@ static double worst(const piece *p, double lo, double hi, int depth, jet room[])
     double at = lo + 0.5 * (hi - lo);
     if (result != ENCLOSED && result != ENCLOSED_SPLIT) return INFINITY;
     if (result == ENCLOSED) {
-        double d = 0, there = 0;
-        for (const part *q = found; q != NULL; q = enclose_next_part(p, q, &times)) {
-            d = proof_larger(d, deviation(q, lo, hi, room));
-            there = proof_larger(there, deviation(q, at, at, room));
-        }
+        const double d = deviation_of_parts(p, found, &times, lo, hi, room);
         if (d <= DEVIATION_SMALL || depth >= HALVINGS || !(lo < at && at < hi) || isinf(d))
             return d;
-        if (there > 0.5 * d) return d; /* it is no smaller there */
+        /* it is no smaller there */
+        if (deviation_of_parts(p, found, &times, at, at, room) > 0.5 * d) return d;
     } else {
         at = divide.at;
     }

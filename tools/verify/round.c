@@ -228,7 +228,8 @@ static void hold(memory *known, const place *of, const box3 *where, aim *a)
     if (k->result != ENCLOSED) return;
     for (int i = 0; i < 3; ++i) size[i] = ld_interval_mag(k->box[i].v);
     take_form(a->about, e);
-    const double slip = motion_slip_upper(of, where->lo[T], where->hi[T], a->about->c, e, size);
+    const form_changes *all = look_changes(known, of, where->lo[T], where->hi[T], a->about->c, e);
+    const double slip = form_change_upper(all, size);
     if (!(slip < INFINITY)) return;
     a->slip = slip;
     a->at = middle(where->lo[T], where->hi[T]);

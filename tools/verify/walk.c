@@ -14,6 +14,7 @@ typedef struct pair {
     walk *w;
     const chain *chain[2];
     prover prover;
+    double *deviations; /* of maps that are left out from being rigid; NAN: not known */
     uint32_t *order[2];
     bool is_said;
     bool has_axis; /* of a leaf before in this tree */
@@ -211,7 +212,10 @@ static bool leave_out(pair *p, size_t count)
             return input_refuse(in, "maps are left out that the surfaces do not share");
         if (!p->is_said) continue;
         const scene_clock *t = &s->clocks[s->stages[map].clock];
-        const double d = map_deviation_upper(s, map, t->lo, t->hi, p->prover.side[0].room);
+        double *of_map = &p->deviations[map];
+        if (isnan(*of_map))
+            *of_map = map_deviation_upper(s, map, t->lo, t->hi, p->prover.side[0].room);
+        const double d = *of_map;
         if (!(d < 0.5))
             return input_refuse(in, "map %zu (%s), left out, is not proved to be rigid", map,
                                 s->stages[map].type);
@@ -240,6 +244,7 @@ typedef struct work {
     jet *steps;
     memory *known;
     memo *memos;
+    double *deviations;
 } work;
 
 /* Reads which clock is T, and begins with all values of all of them. */
@@ -259,7 +264,7 @@ static bool begin_values(pair *p, cell *c)
 static bool take_pair(walk *w, size_t a, size_t b, const work *room)
 {
     const statement *s = w->says;
-    pair p = {.w = w, .chain = {&s->chains[a], &s->chains[b]}};
+    pair p = {.w = w, .chain = {&s->chains[a], &s->chains[b]}, .deviations = room->deviations};
     cell c = {.t = {0, 0}};
     p.is_said = statement_is_said(s, p.chain[0]) && statement_is_said(s, p.chain[1]);
     p.prover.tests_most = w->effort;
@@ -318,9 +323,12 @@ bool walk_trees(walk *w)
     size_t *first = malloc((s->body_count + 1) * sizeof *first);
     const work room = {malloc((2 * (size_t)s->steps + 1) * sizeof *room.steps),
                        calloc(1, sizeof *room.known),
-                       calloc(s->stage_count + 1, sizeof *room.memos)};
-    bool good = first != NULL && room.steps != NULL && room.known != NULL && room.memos != NULL;
+                       calloc(s->stage_count + 1, sizeof *room.memos),
+                       malloc((s->stage_count + 1) * sizeof *room.deviations)};
+    bool good = first != NULL && room.steps != NULL && room.known != NULL && room.memos != NULL &&
+                room.deviations != NULL;
     if (!good) input_refuse(w->in, "memory ran out");
+    for (size_t k = 0; good && k < s->stage_count; ++k) room.deviations[k] = NAN;
     good = good && find_first(w, first);
     for (size_t a = 0; a < s->body_count && good; ++a)
         for (size_t b = a + 1; b < s->body_count && good; ++b)
@@ -330,6 +338,7 @@ bool walk_trees(walk *w)
     look_free(room.known);
     for (size_t k = 0; k < s->stage_count && room.memos != NULL; ++k) free(room.memos[k].value);
     free(room.memos);
+    free(room.deviations);
     return good && input_end(w->in);
 }
 
