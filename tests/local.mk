@@ -883,6 +883,7 @@ clean-local: clean-manuals
 EXTRA_DIST += \
     tests/peers/fcl_overlaps.cc \
     tests/peers/kinematics.py \
+    tests/peers/robot_certificates.py \
     tests/peers/robot_speed.py \
     tests/peers/test_robots.py \
     tests/python/support.py \

@@ -77,6 +77,7 @@ tools_check = \
 tools_bench = \
     tools/bench/bench.h \
     tools/bench/cases.c \
+    tools/bench/certificate_cases.c \
     tools/bench/certificates.c \
     tools/bench/columns.c tools/bench/columns.h \
     tools/bench/conformal.c \
@@ -394,9 +395,13 @@ pkgdata_DATA = \
 # Where build_tree_data looks, so that the command just built meets the data of its own tree.
 built_data = tools/built-data
 noinst_DATA = \
+    $(built_data)/arm.csv \
+    $(built_data)/arm.json \
     $(built_data)/bicubic_moving_100.jsonl \
     $(built_data)/blade.json \
+    $(built_data)/door.json \
     $(built_data)/page.html \
+    $(built_data)/spindle.json \
     $(built_data)/teapot.json \
     $(addprefix $(built_data)/template/,$(notdir $(dist_template_DATA))) \
     $(pkginclude_HEADERS:sdk/%=$(built_data)/include/%)

@@ -198,7 +198,9 @@ counts() { jq 'del(.. | .seconds?)' <<<"$output"; }
     run -0 "$IMPINGE" bench certificates --up-to 100 --repeat 1 --json
     valid bench
     json '[.sets[0].cases[].case] == ["patches, gamma 1e-06", "shaft, c = 0.001", "socket, c = 0.1",
-        "teapot and torus, gamma 0.01"] and .sets[0].findings.refused == 0'
+        "teapot and torus, gamma 0.01", "arm beside a fixture, 2 required",
+        "door, all places of its hinge", "spindle, all angles"] and .sets[0].findings.refused == 0'
+    json '[.sets[0].cases[].methods[].verdicts.undecided] | add == 0'
     json 'all(.sets[0].cases[]; (.methods[0] | has("certificates") | not) and .scenes as $n |
         .methods[1].certificates | .count == $n and .hold == $n and .bytes.mean > 1000 and
         .verify_seconds.mean > 0 and .verify_over_solve > 1)'

@@ -28,7 +28,8 @@ enum { BENCH_ROWS_MAX = 8, BENCH_FINDINGS_MAX = 4 };
 
 /* One scene, and when its bodies first touch, where that is known. */
 typedef struct bench_scene {
-    char *a, *b; /* two pipelines; b NULL: a is the text of a scene file */
+    char *a, *b;  /* two pipelines; b NULL: a is the text of a scene file, */
+    bool is_path; /* or the path of one */
     bool has_reference;
     bool meets; /* the reference: whether they touch at all, and when */
     double t;
@@ -37,7 +38,8 @@ typedef struct bench_scene {
 typedef struct bench_case {
     char name[48];
     double gamma, gamma_clear; /* length; gamma_clear < 0: gamma / 2 */
-    double cut; /* if > 0: asked only up to this part of the time until the first contact */
+    double required; /* if > 0: whether bodies stay so far apart is asked instead of contact */
+    double cut;      /* if > 0: asked only up to this part of the time until the first contact */
     uint64_t goal[BENCH_ROWS_MAX]; /* pairs that each of the set's methods may take; 0: no goal */
     bool goal_is_open[BENCH_ROWS_MAX]; /* known not to be reached yet */
     bench_scene *scenes;
@@ -60,6 +62,9 @@ void bench_begin(bench_cases *list, double gamma, double gamma_clear, const char
 bench_scene *bench_add_pair(bench_cases *list, char *a, char *b);
 bench_scene *bench_add_text(bench_cases *list, char *text);
 
+/* Adds a scene file that comes with the command; complains where it is missing. */
+exit_status bench_add_package_file(bench_cases *list, const char *name, const char *verb);
+
 /* Text that printf makes, in memory of its own; NULL: no memory. */
 char *bench_text(const char *format, ...) __attribute__((format(printf, 1, 2)));
 
@@ -68,12 +73,12 @@ void bench_cases_free(bench_cases *list);
 /* --- Methods and sets ------------------------------------------------------------------------- */
 
 typedef enum bench_question {
-    BENCH_CONTACT,    /* when do they first touch? */
+    BENCH_CONTACT,    /* when do they first touch, or what the case asks */
     BENCH_CLEARANCE,  /* how near do they come? */
     BENCH_DECISION,   /* is 0.99 of the minimum distance kept? */
     BENCH_PROOF,      /* do they stay 0.99 of the least distance apart? */
     BENCH_STREAM,     /* contact, of all scenes one after the other, reading them included */
-    BENCH_CERTIFICATE /* contact, keeping the proof, which is then verified */
+    BENCH_CERTIFICATE /* what the case asks, keeping the proof, which is then verified */
 } bench_question;
 
 typedef struct bench_method {
@@ -209,6 +214,10 @@ imp_code bench_measure_stream(imp_registry *registry, const bench_case *c, const
 imp_code bench_measure_certificates(imp_registry *registry, const bench_case *c,
                                     const bench_request *request, bench_tally *tally,
                                     imp_error *error);
+
+/* Tells what a clearance says as the verdict of a search: clear where the minimum distance is above
+ * gamma, or where what is required is kept. */
+imp_verdict bench_verdict_of(const imp_clearance *answer, double gamma);
 
 /* Returns the verifier's time over that of the search that kept the proof, in the mean. */
 double bench_verify_over_solve(const bench_tally *tally);

@@ -10,6 +10,7 @@
 #include <stdlib.h>
 
 #include "core/common/array.h"
+#include "tools/cli/input.h"
 
 /* --- Lists of cases --------------------------------------------------------------------------- */
 
@@ -55,6 +56,15 @@ bench_scene *bench_add_text(bench_cases *list, char *text)
     bench_scene *added = add(list, (bench_scene){.a = text});
     if (added == NULL) free(text);
     return added;
+}
+
+exit_status bench_add_package_file(bench_cases *list, const char *name, const char *verb)
+{
+    char *path = input_package_file(name, verb);
+    if (path == NULL) return EXIT_DATA;
+    bench_scene *added = bench_add_text(list, path);
+    if (added != NULL) added->is_path = true;
+    return EXIT_ANSWERED;
 }
 
 void bench_cases_free(bench_cases *list)

@@ -12,8 +12,6 @@
 #include <sys/resource.h>
 #include <unistd.h>
 
-#include "tools/bench/crowd.h"
-#include "tools/cli/input.h"
 #include "tools/cli/program.h"
 
 /* Certificates: what keeping the proof costs, how large the file is, and what impinge-verify takes
@@ -37,10 +35,53 @@ static void put(void *context, const void *bytes, size_t size)
     fwrite(bytes, 1, size, context); /* write_file looks for failures */
 }
 
-static imp_code write_file(FILE *file, const imp_query *query, double *bytes, imp_error *error)
+/* What is asked of a scene: of one with parameters about all their values. */
+typedef struct question {
+    imp_query *query;
+    imp_survey *survey; /* or this */
+    bool has_requirement;
+} question;
+
+static imp_code ask(const bench_case *c, imp_scene *scene, question *q, imp_error *error)
+{
+    imp_options o = imp_options_default(scene);
+    imp_clearance_options wanted = imp_clearance_options_default();
+    o.gamma = c->gamma;
+    o.gamma_clear = c->gamma_clear;
+    o.max_bytes = 0;
+    wanted.required = c->required;
+    wanted.decide = true;
+    q->has_requirement = c->required > 0;
+    if (imp_scene_parameter_count(scene) > 0)
+        q->survey = imp_survey_new(scene, &o, q->has_requirement ? &wanted : NULL, NULL, error);
+    else
+        q->query = q->has_requirement ? imp_clearance_new(scene, &o, &wanted, error)
+                                      : imp_query_new(scene, &o, error);
+    if (q->survey != NULL) return imp_survey_keep_proof(q->survey, error);
+    return q->query != NULL ? imp_query_keep_proof(q->query, error) : error->code;
+}
+
+static imp_code answer(const question *q, const bench_case *c, imp_result *result, imp_error *error)
+{
+    imp_clearance least = {.struct_size = (uint32_t)sizeof least};
+    imp_code code = IMP_SUCCESS;
+    *result = (imp_result){.struct_size = (uint32_t)sizeof *result};
+    if (q->survey != NULL)
+        code = imp_survey_get_result(q->survey, result, error);
+    else
+        *result = imp_query_result(q->query);
+    if (!q->has_requirement || code != IMP_SUCCESS) return code;
+    code = q->survey != NULL ? imp_survey_get_clearance(q->survey, &least, error)
+                             : imp_clearance_get(q->query, 0, &least, error);
+    if (code == IMP_SUCCESS) result->verdict = bench_verdict_of(&least, c->gamma);
+    return code;
+}
+
+static imp_code write_file(FILE *file, const question *q, double *bytes, imp_error *error)
 {
     rewind(file);
-    imp_code code = imp_query_write_proof(query, NULL, put, file, error);
+    imp_code code = q->survey != NULL ? imp_survey_write_proof(q->survey, NULL, put, file, error)
+                                      : imp_query_write_proof(q->query, NULL, put, file, error);
     const off_t size = ftello(file);
     *bytes = (double)size;
     if (code == IMP_SUCCESS &&
@@ -55,21 +96,18 @@ static imp_code write_file(FILE *file, const imp_query *query, double *bytes, im
 static imp_code prove(proving *p, size_t k, imp_result *result, double *seconds, imp_error *error)
 {
     imp_scene *scene = bench_scene_of(p->registry, &p->of->scenes[k], error);
+    question q = {.query = NULL};
     if (scene == NULL) return error->code;
-    imp_options o = imp_options_default(scene);
-    o.gamma = p->of->gamma;
-    o.gamma_clear = p->of->gamma_clear;
-    o.max_bytes = 0;
-    imp_query *query = imp_query_new(scene, &o, error);
-    imp_code code = query != NULL ? imp_query_keep_proof(query, error) : error->code;
+    imp_code code = ask(p->of, scene, &q, error);
     const double start = bench_seconds_computed();
-    if (code == IMP_SUCCESS) code = imp_query_step(query, 0, error);
+    if (code == IMP_SUCCESS)
+        code = q.survey != NULL ? imp_survey_step(q.survey, 0, error)
+                                : imp_query_step(q.query, 0, error);
     *seconds = bench_seconds_computed() - start;
-    if (code == IMP_SUCCESS) {
-        *result = imp_query_result(query);
-        code = write_file(p->file, query, &p->bytes[k], error);
-    }
-    imp_query_free(query);
+    if (code == IMP_SUCCESS) code = answer(&q, p->of, result, error);
+    if (code == IMP_SUCCESS) code = write_file(p->file, &q, &p->bytes[k], error);
+    imp_survey_free(q.survey);
+    imp_query_free(q.query);
     imp_scene_free(scene);
     return code;
 }
@@ -162,74 +200,6 @@ double bench_verify_over_solve(const bench_tally *tally)
     return tally->certificates.seconds.mean / tally->seconds.mean;
 }
 
-/* --- certificates ----------------------------------------------------------------------------- */
-
-static const bench_method solve = {.name = "solve"};
-static const bench_method with_proof = {.name = "solve, keeping the proof",
-                                        .question = BENCH_CERTIFICATE};
-static const bench_method *const methods[] = {&solve, &with_proof, NULL};
-enum { SOLVE, WITH_PROOF };
-
-static exit_status add_teapot(bench_cases *list, const bench_request *request)
-{
-    char *path = input_package_file("teapot.json", request->verb), *text = NULL;
-    FILE *file = path != NULL ? input_open(path, request->verb) : NULL;
-    size_t size = 0;
-    const bool complete = file != NULL && getdelim(&text, &size, '\0', file) > 0;
-    if (file != NULL) {
-        if (!complete) complain(EXIT_DATA, request->verb, "%s: cannot be read", path);
-        input_close(file);
-    }
-    free(path);
-    bench_begin(list, 1e-2, -1, "teapot and torus, gamma 0.01");
-    if (complete)
-        bench_add_text(list, text);
-    else
-        free(text);
-    return complete ? EXIT_ANSWERED : EXIT_DATA;
-}
-
-enum { PATCHES = 4, TRIANGLES = 1000 };
-
-static exit_status build(bench_cases *list, const bench_request *request)
-{
-    bench_begin(list, 1e-6, -1, "patches, gamma 1e-06");
-    bench_add_patches(list, request->seed, PATCHES + request->count);
-    bench_begin(list, 1e-4, -1, "shaft, c = 0.001");
-    bench_add_pair(list, bench_text("cylinder radius=0.999 height=2 ! rotate rate=1"),
-                   bench_text("cylinder height=2"));
-    bench_begin(list, 1e-2, -1, "socket, c = 0.1");
-    bench_add_pair(list, bench_text("sphere radius=0.9 ! rotate axis=1,2,3 rate=2"),
-                   bench_text("sphere"));
-    if (TRIANGLES <= request->up_to) {
-        bench_begin(list, 1e-3, -1, "%d triangles each, gamma 0.001", TRIANGLES);
-        bench_add_text(list, crowd_two_meshes(20, TRIANGLES / 40));
-    }
-    const exit_status status = add_teapot(list, request);
-    return status == EXIT_ANSWERED ? bench_built(list, request) : status;
-}
-
-static size_t find(const bench_result *results, size_t count, bench_finding *findings)
-{
-    const bench_tally *patches = &results[0].rows[WITH_PROOF].tally;
-    const double kept = patches->seconds.mean / results[0].rows[SOLVE].tally.seconds.mean;
-    size_t all = 0, hold = 0;
-    for (size_t k = 0; k < count; ++k) {
-        all += results[k].rows[WITH_PROOF].tally.certificates.count;
-        hold += results[k].rows[WITH_PROOF].tally.certificates.hold;
-    }
-    findings[0] = (bench_finding){.key = "keeping_over_solving", .value = kept};
-    findings[1] =
-        (bench_finding){.key = "verify_over_solve", .value = bench_verify_over_solve(patches)};
-    findings[2] = (bench_finding){.key = "refused", .value = (double)(all - hold)};
-    snprintf(findings[0].text, sizeof findings[0].text,
-             "patches: to search and keep the proof takes %.2f times the search alone", kept);
-    snprintf(findings[1].text, sizeof findings[1].text,
-             "patches: to verify takes %.0f times the search", findings[1].value);
-    snprintf(findings[2].text, sizeof findings[2].text, "%zu of %zu certificates hold", hold, all);
-    return 3;
-}
-
 const char *bench_set_lack(const bench_set *set)
 {
     const bench_method *const *m = set->methods;
@@ -242,10 +212,3 @@ const char *bench_set_lack(const bench_set *set)
                  : "needs " VERIFIER ", which is neither beside this command nor on PATH: it is "
                    "built where configure finds MPFI (Debian: libmpfi-dev)";
 }
-
-const bench_set bench_certificates_set = {
-    "certificates",
-    "What was proved, as a file (--proof) that impinge-verify proves again: the search without and "
-    "with it;\nthe file's bytes, the verifier's processor time, its start included, and how many "
-    "times the search that is.",
-    methods, build, find};

@@ -20,6 +20,7 @@ double bench_seconds_computed(void)
 imp_scene *bench_scene_of(imp_registry *registry, const bench_scene *s, imp_error *error)
 {
     if (s->b != NULL) return imp_scene_from_pair(registry, s->a, s->b, error);
+    if (s->is_path) return imp_scene_from_file(registry, s->a, error);
     return imp_scene_from_json(registry, s->a, strlen(s->a), "a scene of the benchmark", error);
 }
 
@@ -73,8 +74,7 @@ static imp_code run_survey(imp_scene *scene, const imp_options *options, imp_res
     return code;
 }
 
-/* Clear: the minimum distance is known, or what is required is kept. */
-static imp_verdict verdict_of(const imp_clearance *answer, double gamma)
+imp_verdict bench_verdict_of(const imp_clearance *answer, double gamma)
 {
     if (answer->verdict == IMP_REQUIREMENT_HOLDS) return IMP_VERDICT_CLEAR;
     if (answer->verdict == IMP_REQUIREMENT_VIOLATED) return IMP_VERDICT_CONTACT;
@@ -100,7 +100,7 @@ static imp_code run_clearance(imp_scene *scene, const imp_options *options, doub
     if (code == IMP_SUCCESS) code = imp_clearance_get(query, 0, least, error);
     if (code == IMP_SUCCESS) {
         *result = imp_query_result(query);
-        result->verdict = verdict_of(least, options->gamma);
+        result->verdict = bench_verdict_of(least, options->gamma);
     }
     imp_query_free(query);
     return code;
@@ -157,9 +157,11 @@ static imp_code solve_once(imp_registry *registry, const bench_scene *s, const b
         code = find_least(registry, s, &options, &least, error);
     if (m->question == BENCH_PROOF && least > 0)
         options.gamma = 0.995 * least, options.gamma_clear = 0.99 * least;
+    const double required = c->required > 0 ? c->required : 0.99 * least;
+    const bool is_distance = m->question == BENCH_CLEARANCE || m->question == BENCH_DECISION;
     if (code == IMP_SUCCESS)
-        code = m->question == BENCH_CLEARANCE || m->question == BENCH_DECISION
-                   ? run_clearance(scene, &options, 0.99 * least, &answer, result, seconds, error)
+        code = is_distance || c->required > 0
+                   ? run_clearance(scene, &options, required, &answer, result, seconds, error)
                    : run(imp_query_new(scene, &options, error), result, seconds, error);
     imp_scene_free(scene);
     return code;
