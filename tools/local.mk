@@ -75,6 +75,7 @@ tools_check = \
     tools/check/verb_check.c
 
 tools_bench = \
+    tools/bench/arm.c tools/bench/arm.h \
     tools/bench/bench.h \
     tools/bench/cases.c \
     tools/bench/certificate_cases.c \

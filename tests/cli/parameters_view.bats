@@ -91,4 +91,8 @@ setup() {
     pairs '1 joint, c = 0.0001' 100
     pairs '2 joints, c = 0.1' 2000
     pairs '3 joints, c = 0.1' 20000
+    pairs '4 joints, c = 0.4' 5000
+    jq -e '[.sets[0].cases[] | select(.case | startswith("pairs of links")).methods[0].verdicts.clear] |
+        .[0] == 45 and .[1] == 9 and .[2] >= 7' <<<"$output"
+    jq -e '.sets[0].findings | .arm_seconds < 60 and .exponent_4_joints < 4' <<<"$output"
 }
