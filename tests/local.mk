@@ -361,6 +361,7 @@ check_LTLIBRARIES = \
     tests/plugins/mistakes_manners.la \
     tests/plugins/mistakes_map.la \
     tests/plugins/mistakes_pieces.la \
+    tests/plugins/mistakes_parts.la \
     tests/plugins/mistakes_pose.la \
     tests/plugins/mistakes_formula.la \
     tests/plugins/mistakes_stated.la \
@@ -466,6 +467,7 @@ tests_plugins_mistakes_distance_la_LDFLAGS = $(test_plugin_ldflags)
 tests_plugins_mistakes_manners_la_LDFLAGS = $(test_plugin_ldflags)
 tests_plugins_mistakes_map_la_LDFLAGS = $(test_plugin_ldflags)
 tests_plugins_mistakes_pieces_la_LDFLAGS = $(test_plugin_ldflags)
+tests_plugins_mistakes_parts_la_LDFLAGS = $(test_plugin_ldflags)
 tests_plugins_mistakes_pose_la_LDFLAGS = $(test_plugin_ldflags)
 tests_plugins_mistakes_formula_la_LDFLAGS = $(test_plugin_ldflags)
 tests_plugins_mistakes_stated_la_LDFLAGS = $(test_plugin_ldflags)

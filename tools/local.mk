@@ -54,6 +54,7 @@ tools_check = \
     tools/check/map_operand.c tools/check/map_operand.h \
     tools/check/own_formula.c tools/check/own_formula.h \
     tools/check/pair.c tools/check/pair.h \
+    tools/check/parts.c tools/check/parts.h \
     tools/check/pieces.c tools/check/pieces.h \
     tools/check/points.c tools/check/points.h \
     tools/check/poses.c tools/check/poses.h \

@@ -212,6 +212,24 @@ load ../support/check_helper
 }
 
 # --- Pieces -------------------------------------------------------------------------------------
+@test "parts of a map agree with it in the middle of their ranges and where they are left out" {
+    shows parts parts parts_off_the_middle "with each clock in the middle of its range"
+    shows parts parts parts_not_still_at_0 "the parts of 'parts_not_still_at_0 offset=0'"
+    shows parts parts parts_end_early "follows 'parts_end_early#1' from -1 to 1, but is defined from"
+    shows parts parts parts_forget_time "with each clock in the middle of its range"
+    local file=$liars/parts_unread.so
+    for wrong in "parts_unknown unknown map 'nothing_like_it'" 'parts_of_parts one of them has parts' \
+        'parts_empty there are none' 'parts_reversed got the range [1, -1], must be finite'; do
+        ln -sf "$file" .
+        run -6 "$IMPINGE" check "${wrong%% *}" --plugin-path . --only parts
+        [[ $output == *"FAIL  parts "*"${wrong#* }"* ]]
+    done
+    ln -sf "$liars/mistakes_parts.so" .
+    "$IMPINGE" check parts_no_mistake --plugin-path .
+    "$IMPINGE" check parts_follow_no_mistake --plugin-path . --only parts
+    "$IMPINGE" check 'tolerance offset=1 angle=1.5 center=1,2,3' --only parts
+}
+
 @test "pieces that change, are missing, have other times or lie are exposed; those in order are not" {
     run -0 "$IMPINGE" check "$liars/pieces.so" --only pieces --only rates
     exposes pieces pieces_none 'piece_count is 0, must be from 1 to'

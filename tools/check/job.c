@@ -54,6 +54,7 @@ static void run_checks(job *j, check_task *task, bool of_file)
 static check_task task_of(const job *j)
 {
     return (check_task){.file = j->file->file,
+                        .search = text_or_null(arguments_option(j->args, "plugin-path")),
                         .seed = j->seed,
                         .effort = j->effort,
                         .in_process = j->in_process,

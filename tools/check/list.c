@@ -18,6 +18,7 @@
 #include "tools/check/formulas.h"
 #include "tools/check/inclusions.h"
 #include "tools/check/nets.h"
+#include "tools/check/parts.h"
 #include "tools/check/pieces.h"
 #include "tools/check/points.h"
 #include "tools/check/poses.h"
@@ -62,6 +63,7 @@ static const check all[] = {
      .is_repeated_late = true},
     {.name = "nets", .of_subject = nets_check, .of_bounds = true, .is_repeated_late = true},
     {.name = "poses", .of_subject = poses_check, .of_bounds = true, .is_repeated_late = true},
+    {.name = "parts", .of_subject = parts_check},
     {.name = "distances", .of_subject = distances_check, .of_bounds = true},
     {.name = "formula", .of_stage = formula_check},
     {.name = "proof", .of_subject = proof_check, .of_bounds = true},
@@ -69,10 +71,10 @@ static const check all[] = {
     {.name = "cost", .of_subject = cost_check},
 };
 const char *const check_names[] = {
-    "exports", "factories",   "build",      "parameters",  "arguments",   "memory",    "finite",
-    "domain",  "determinism", "state",      "allocations", "environment", "buffers",   "pieces",
-    "rates",   "errors",      "inclusions", "nets",        "poses",       "distances", "formula",
-    "proof",   "tightness",   "cost",       NULL};
+    "exports", "factories",   "build",      "parameters",  "arguments",   "memory",  "finite",
+    "domain",  "determinism", "state",      "allocations", "environment", "buffers", "pieces",
+    "rates",   "errors",      "inclusions", "nets",        "poses",       "parts",   "distances",
+    "formula", "proof",       "tightness",  "cost",        NULL};
 
 _Static_assert(sizeof all / sizeof *all + 1 == sizeof check_names / sizeof *check_names,
                "a name for each");
@@ -121,6 +123,7 @@ static void check_piece(const check *c, const check_task *task, const imp_regist
     s.stage = stage;
     s.formula = task->formula;
     s.said_domain = task->domain;
+    s.search = task->search;
     c->of_subject(&s, &random, task->effort);
     for (int is_before = 0; is_before < 2; ++is_before)
         if (c->is_repeated_late && answer->verdict == CHECK_PASS)

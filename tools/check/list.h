@@ -22,6 +22,7 @@ typedef struct check_task {
     const char *stage[CHECK_STAGES]; /* of that type, NULL-terminated if fewer */
     const char *formula;             /* "X; Y; Z" the stated formula, or NULL */
     const char *domain;              /* "0,1; 0,1" the stated domain, or NULL */
+    const char *search;              /* directories of --plugin-path, or NULL */
     uint64_t seed;
     double effort;    /* 1: as usual */
     size_t check;     /* index */

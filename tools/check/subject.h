@@ -24,6 +24,7 @@ typedef struct subject {
     const char *stage;       /* its stage: "sphere radius=2" */
     const char *formula;     /* stated by the user, or NULL */
     const char *said_domain; /* the same of its domain */
+    const char *search;      /* directories of other plugins, or NULL */
     check_answer *answer;
     int n;          /* 3: u, v, t. 4: x, y, z, t */
     box domain;     /* examined: infinite times are cut to a few units, space to [-2,2] */
