@@ -72,6 +72,19 @@ setup() {
     [[ $stderr == *'drawn at b = -1.92'* ]]
 }
 
+@test "the titles of a picture name the values, and are broken where they do not fit" {
+    "$IMPINGE" clearance "$data/spindle.json" --json >result.json
+    run -0 "$IMPINGE" view result.json -o wide.svg
+    grep -q '>nearest: b = -1.92, c = [-0-9.e]*, fork and nozzle 48.5 apart<' wide.svg
+    run ! grep -q 't = 0' wide.svg # there is one moment only
+    run -0 "$IMPINGE" view result.json -o narrow.svg --width 640 --height 480
+    grep -q '>nearest: b = -1.92, ' narrow.svg
+    grep -q 'nozzle 48.5 apart<' narrow.svg
+    run ! grep -q '\.\.\.<' narrow.svg
+    run -0 "$IMPINGE" view "$data/door.json" -o moving.svg
+    grep -q ': t = 0.*, dx = 0, dy = 0[,<]' moving.svg
+}
+
 @test "values that a scene does not have are refused" {
     fails 2 "--at: the scene has no parameter 'bb'; its parameters are: " "$IMPINGE" view "$data/spindle.json" -o x.png --at bb=1
     fails 2 "--at: 'b' must be from -1.92 to 1.92, not '3'" \

@@ -108,19 +108,18 @@ static void usual_values(const imp_scene *scene, const json_t *known, double *va
     }
 }
 
-static void tell_values(const imp_scene *scene, const double *values, const arguments *args)
+/* Names all values but that of the parameter that is swept. */
+static values_text name_values(const imp_scene *scene, const double *values, const arguments *args)
 {
     imp_scene_parameter_info info;
     const size_t over = swept(scene, args);
-    char text[512] = "";
+    values_text names = {""};
     size_t used = 0;
-    for (size_t k = 0; imp_scene_parameter(scene, k, &info) && used < sizeof text; ++k)
+    for (size_t k = 0; imp_scene_parameter(scene, k, &info) && used < sizeof names.text; ++k)
         if (k != over)
-            used += (size_t)snprintf(text + used, sizeof text - used, "%s%s = %.6g",
+            used += (size_t)snprintf(names.text + used, sizeof names.text - used, "%s%s = %.5g",
                                      used > 0 ? ", " : "", info.name, values[k]);
-    if (used == 0) return;
-    remark(args->verb->name, "drawn at %s; --at NAME=VALUE,... shows others",
-           message_shown(text).text);
+    return names;
 }
 
 /* Refuses --sweep of a name that is not a parameter of the scene. */
@@ -143,7 +142,8 @@ static imp_scene *pose(const imp_scene *scene, const double *values, const argum
     return posed;
 }
 
-exit_status at_values_pose(imp_scene **scene, const json_t *known, const arguments *args)
+exit_status at_values_pose(imp_scene **scene, const json_t *known, const arguments *args,
+                           values_text *names)
 {
     const option_value *at = arguments_option(args, "at");
     const size_t count = imp_scene_parameter_count(*scene);
@@ -153,7 +153,10 @@ exit_status at_values_pose(imp_scene **scene, const json_t *known, const argumen
     exit_status status = check_sweep(*scene, args);
     if (status == EXIT_ANSWERED && at != NULL) status = read_values(*scene, at->text, values, args);
     if (status == EXIT_ANSWERED && count > 0) {
-        if (at == NULL || strchr(at->text, '=') == NULL) tell_values(*scene, values, args);
+        *names = name_values(*scene, values, args);
+        if (names->text[0] != '\0' && (at == NULL || strchr(at->text, '=') == NULL))
+            remark(args->verb->name, "drawn at %s; --at NAME=VALUE,... shows others",
+                   message_shown(names->text).text);
         imp_scene *posed = pose(*scene, values, args);
         if (posed != NULL) imp_scene_free(*scene), *scene = posed;
         if (posed == NULL) status = EXIT_USAGE;

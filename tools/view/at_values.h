@@ -16,8 +16,14 @@
  * are two, or it is too long. */
 bool at_values_time(const char *text, char *part, size_t size);
 
-/* Replaces the scene by that at the values, if it has parameters. `known` is the object
- * "parameters" of a result, or NULL. Complains. */
-exit_status at_values_pose(imp_scene **scene, const json_t *known, const arguments *args);
+/* "b = 1.2, c = 0"; empty: there are no parameters, or none but the one that is swept. */
+typedef struct values_text {
+    char text[512];
+} values_text;
+
+/* Replaces the scene by that at the values, if it has parameters, and names them. `known` is the
+ * object "parameters" of a result, or NULL. Complains. */
+exit_status at_values_pose(imp_scene **scene, const json_t *known, const arguments *args,
+                           values_text *names);
 
 #endif

@@ -151,6 +151,19 @@ double canvas_text_width(const canvas *c, double size, const char *text)
     return width;
 }
 
+size_t canvas_first_line(const canvas *c, double size, double room, const char *text)
+{
+    double width = 0;
+    size_t used = 0, kept = 0; /* bytes, and those before the last space */
+    while (text[used] != '\0') {
+        if (text[used] == ' ') kept = used;
+        width += character_width(c, size, text + used);
+        if (width > room) return kept;
+        used += character_bytes(text + used);
+    }
+    return used;
+}
+
 void canvas_fitted(const canvas *c, double size, double room, const char *text, char *fitted,
                    size_t length)
 {

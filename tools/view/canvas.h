@@ -43,6 +43,10 @@ void canvas_text(canvas *c, double x, double y, double size, canvas_anchor ancho
 void canvas_text_fixed(canvas *c, double x, double y, double size, colour tint, const char *text);
 double canvas_text_width(const canvas *c, double size, const char *text);
 
+/* Returns how many bytes of the text fit `room` pixels: all, or those before a space; 0: its first
+ * word does not fit. */
+size_t canvas_first_line(const canvas *c, double size, double room, const char *text);
+
 /* Copies the text, or as much of it as fits `room` pixels and `length` bytes, with dots at its
  * end. */
 void canvas_fitted(const canvas *c, double size, double room, const char *text, char *fitted,

@@ -4,12 +4,12 @@
 
 #include "tools/view/picture.h"
 
+#include <stdio.h>
 #include <stdlib.h>
+#include <string.h>
 
 #include "tools/view/palette.h"
 #include "tools/view/visibility.h"
-
-enum { TITLE = 20 }; /* pixels above the middle that the title takes */
 
 static const colour ink = {0.13f, 0.15f, 0.18f}, white = {1, 1, 1};
 
@@ -20,7 +20,7 @@ static colour lighter(colour c, float by)
     return (colour){1 - by * (1 - c.r), 1 - by * (1 - c.g), 1 - by * (1 - c.b)};
 }
 
-void picture_frame(camera *c, const raster_window *w, const stage *s)
+void picture_frame(camera *c, const raster_window *w, const stage *s, double title)
 {
     double lo[2] = {INFINITY, INFINITY}, hi[2] = {-INFINITY, -INFINITY};
     const cloud *all = &s->cloud;
@@ -32,11 +32,11 @@ void picture_frame(camera *c, const raster_window *w, const stage *s)
         for (int k = 0; k < 2; ++k) lo[k] = fmin(lo[k], seen.x[k]), hi[k] = fmax(hi[k], seen.x[k]);
     }
     const double wide = hi[0] - lo[0], high = hi[1] - lo[1];
-    const double scale = fmin(0.88 * w->width / wide, (0.9 * w->height - TITLE) / high);
+    const double scale = fmin(0.88 * w->width / wide, (0.9 * w->height - title) / high);
     const bool extends = scale > 0 && scale < INFINITY;
     c->scale = extends ? scale : 100;
     c->middle[0] = w->x + 0.5 * w->width - (extends ? 0.5 * scale * (lo[0] + hi[0]) : 0);
-    c->middle[1] = w->y + 0.5 * (w->height + TITLE) - (extends ? 0.5 * scale * (lo[1] + hi[1]) : 0);
+    c->middle[1] = w->y + 0.5 * (w->height + title) - (extends ? 0.5 * scale * (lo[1] + hi[1]) : 0);
 }
 
 /* --- What hides the spot ---------------------------------------------------------------------- */
@@ -244,20 +244,63 @@ static void mark_nearest(const stage *s, const panel *p, canvas *c)
     canvas_text_fixed(c, left, y, 15, palette_mark, text);
 }
 
+enum { LINES_MAX = 3 }; /* of a title */
+
+static const double letters = 17, line_height = 22; /* pixels */
+
+/* Draws one line of the title on white, at `below` pixels under the first. */
+static void draw_title_line(const panel *p, canvas *c, double below, const char *line)
+{
+    const raster_window *w = &p->window;
+    const double right = w->x + 20 + canvas_text_width(c, letters, line);
+    const double top = w->y + 4 + below, low = w->y + 32 + below;
+    canvas_shape(c, (const double[8]){w->x + 4, top, right, top, right, low, w->x + 4, low}, 4,
+                 white);
+    canvas_text(c, w->x + 12, w->y + 24 + below, letters, CANVAS_LEFT, ink, line);
+}
+
+/* Returns how many bytes of the title line k takes: all that are left in the last, which is cut
+ * where it is too long. */
+static size_t title_line(const canvas *c, double width, const char *rest, int k)
+{
+    const size_t used = k + 1 < LINES_MAX ? canvas_first_line(c, letters, width - 24, rest) : 0;
+    return used > 0 ? used : strlen(rest);
+}
+
+double picture_title_height(const canvas *c, double width, const char *title)
+{
+    double height = 20;
+    size_t used = title_line(c, width, title, 0);
+    for (int k = 1; title[used] != '\0'; ++k) {
+        height += line_height;
+        title += used + strspn(title + used, " ");
+        used = title_line(c, width, title, k);
+    }
+    return height;
+}
+
+static void draw_title(const panel *p, canvas *c)
+{
+    const double width = p->window.width;
+    const char *rest = p->title;
+    char line[sizeof p->title], fitted[sizeof line];
+    for (int k = 0; k == 0 || *rest != '\0'; ++k) {
+        const size_t used = title_line(c, width, rest, k);
+        snprintf(line, sizeof line, "%.*s", (int)used, rest);
+        canvas_fitted(c, letters, width - 24, line, fitted, sizeof fitted);
+        draw_title_line(p, c, k * line_height, fitted);
+        rest += used + strspn(rest + used, " ");
+    }
+}
+
 static void draw_frame(const panel *p, canvas *c)
 {
     const raster_window *w = &p->window;
     const double x = w->x + 0.5, y = w->y + 0.5, x1 = w->x + w->width - 0.5,
                  y1 = w->y + w->height - 0.5;
-    char title[sizeof p->title];
     canvas_line(c, (const double[10]){x, y, x1, y, x1, y1, x, y1, x, y}, 5,
                 (pen){{0.82f, 0.84f, 0.86f}, 1});
-    canvas_fitted(c, 17, w->width - 24, p->title, title, sizeof title);
-    const double right = w->x + 20 + canvas_text_width(c, 17, title), low = w->y + 32;
-    canvas_shape(c,
-                 (const double[8]){w->x + 4, w->y + 4, right, w->y + 4, right, low, w->x + 4, low},
-                 4, white);
-    canvas_text(c, w->x + 12, w->y + 24, 17, CANVAS_LEFT, ink, title);
+    draw_title(p, c);
 }
 
 imp_code picture_draw(const stage *s, const panel *p, canvas *c, imp_error *error)

@@ -13,7 +13,7 @@
 typedef struct panel {
     raster_window window;
     camera camera;
-    char title[256];
+    char title[768]; /* drawn in as many lines as it needs, up to three */
     bool
         marks; /* the spot: where they touch, with the normal, or come nearest, with the distance */
 } panel;
@@ -21,7 +21,11 @@ typedef struct panel {
 /* Draws the stage where stage_move put it. */
 imp_code picture_draw(const stage *s, const panel *p, canvas *c, imp_error *error);
 
-/* Centres and scales the camera so that all of the stage is inside the window, with a margin. */
-void picture_frame(camera *c, const raster_window *w, const stage *s);
+/* Returns the pixels above the middle that a title takes in a panel of that width. */
+double picture_title_height(const canvas *c, double width, const char *title);
+
+/* Centres and scales the camera so that all of the stage is inside the window below a title of that
+ * height, with a margin. */
+void picture_frame(camera *c, const raster_window *w, const stage *s, double title);
 
 #endif

@@ -40,16 +40,23 @@ typedef struct story {
     double moments[MOMENTS]; /* ascending */
     char titles[MOMENTS][sizeof((panel *)NULL)->title];
     size_t count;
-    bool close_up;    /* a last panel, of the spot from near */
-    const char *axis; /* what the moments are of */
-    size_t spot;      /* the moment that is the spot's; SIZE_MAX: none is */
+    bool close_up;      /* a last panel, of the spot from near */
+    const char *axis;   /* what the moments are of */
+    const char *values; /* at which the scene stands; empty: it has no parameters */
+    bool is_moment;     /* there is one moment only, which needs no name beside values */
+    size_t spot;        /* the moment that is the spot's; SIZE_MAX: none is */
 } story;
 
+/* The values are named once: in the first title. */
 static void add(story *tale, double t, const char *what, const char *more)
 {
+    const char *values = tale->count == 0 ? tale->values : "";
+    char at[48] = "";
+    if (values[0] == '\0' || !tale->is_moment)
+        snprintf(at, sizeof at, "%.24s = %.7g", tale->axis, t);
     tale->moments[tale->count] = t;
-    snprintf(tale->titles[tale->count++], sizeof tale->titles[0], "%s%.24s = %.7g%s", what,
-             tale->axis, t, more);
+    snprintf(tale->titles[tale->count++], sizeof tale->titles[0], "%s%s%s%s%s", what, at,
+             at[0] != '\0' && values[0] != '\0' ? ", " : "", values, more);
 }
 
 /* Adds the title of the spot: "a and b" if there are several distances. */
@@ -107,7 +114,10 @@ static void plan_all(story *tale, const subject *what)
 
 static story plan(const subject *what, const view_request *request)
 {
-    story tale = {.spot = SIZE_MAX, .axis = what->axis};
+    story tale = {.spot = SIZE_MAX,
+                  .axis = what->axis,
+                  .values = what->values.text,
+                  .is_moment = what->options.t_start == what->options.t_end};
     if (request->at_kind == REQUEST_AT_SPOT && what->spot.is_known)
         add_spot(&tale, what);
     else if (request->at_kind == REQUEST_AT_SPOT)
@@ -133,6 +143,7 @@ typedef struct board {
     canvas *canvas;
     direction from;
     double height; /* pixels above the legend */
+    double title;  /* pixels of the highest title */
 } board;
 
 static raster_window window_of(const board *b, size_t k)
@@ -162,7 +173,7 @@ static void zoom(camera *c, const raster_window *w, const stage *s, double facto
 static camera camera_for(const board *b, const raster_window *w)
 {
     camera c = camera_toward(b->from.azimuth, b->from.elevation);
-    picture_frame(&c, w, b->stage);
+    picture_frame(&c, w, b->stage, b->title);
     zoom(&c, w, b->stage, b->request->zoom);
     return c;
 }
@@ -272,7 +283,9 @@ static imp_code draw(stage *s, const story *tale, const view_request *request, c
 {
     char note[sizeof note_format + 16];
     snprintf(note, sizeof note, note_format, 0.00012345); /* as long as any */
-    board b = {s, tale, request, c, {0, 0}, c->height - legend_height(s, c, note)};
+    board b = {s, tale, request, c, {0, 0}, c->height - legend_height(s, c, note), 0};
+    for (size_t k = 0; k < tale->count; ++k)
+        b.title = fmax(b.title, picture_title_height(c, window_of(&b, k).width, tale->titles[k]));
     imp_code code = storyboard_direction(s, request, &b.from, error);
     if (code == IMP_SUCCESS) code = draw_moments(&b, error);
     if (code == IMP_SUCCESS && tale->close_up) code = draw_close_up(&b, error_upper, error);

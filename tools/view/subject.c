@@ -125,7 +125,7 @@ static exit_status pose(subject *s, const json_t *known, const arguments *args)
     if (over != NULL)
         snprintf(s->title + used, sizeof s->title - used, ", t is %.60s",
                  message_shown(over->text).text);
-    return at_values_pose(&s->scene, known, args);
+    return at_values_pose(&s->scene, known, args, &s->values);
 }
 
 /* --sweep asks about a scene: a result is one at values. */

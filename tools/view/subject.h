@@ -4,6 +4,7 @@
 #define TOOLS_VIEW_SUBJECT_H
 
 #include "tools/cli/arguments.h"
+#include "tools/view/at_values.h"
 #include "tools/view/events.h"
 #include "tools/view/stage.h"
 
@@ -23,7 +24,8 @@ typedef struct subject {
     event_list events; /* of a simulation */
     char title
         [256]; /* the scene's name: its file, or the two surfaces; and what t is, if not time */
-    const char *axis; /* what moments are of: "t", or the parameter that is swept */
+    values_text values; /* at which the scene stands */
+    const char *axis;   /* what moments are of: "t", or the parameter that is swept */
 } subject;
 
 /* Reads the operands and solves, unless they are a result. Complains. Free in any case. */
