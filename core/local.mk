@@ -50,6 +50,8 @@ core_surface = \
     core/surface/surface_include.c core/surface/surface_internal.h \
     core/surface/surface_motion.c core/surface/surface_net.c core/surface/surface_pose.c \
     core/surface/course.h core/surface/course_line.c core/surface/course_line.h \
+    core/surface/feature.c core/surface/feature.h \
+    core/surface/half_plane.c core/surface/half_plane.h \
     core/surface/surface_course.c core/surface/surface_orbit.c core/surface/surface_pair_slip.c \
     core/surface/surface_rate.c core/surface/surface_slip.c \
     core/surface/time_model.h core/surface/surface_shift.c core/surface/surface_shift.h \
@@ -184,7 +186,8 @@ core_broad_phase = \
     core/broad_phase/candidate.c core/broad_phase/candidate.h \
     core/broad_phase/candidates.c core/broad_phase/candidates.h \
     core/broad_phase/candidates_part.c \
-    core/broad_phase/collect_frames.c \
+    core/broad_phase/collect_frames.c core/broad_phase/collect_half_planes.c \
+    core/broad_phase/frame_list.h \
     core/broad_phase/collect_pairs.c \
     core/broad_phase/collect_roots.c \
     core/broad_phase/collect_surfaces.c \

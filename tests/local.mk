@@ -35,6 +35,7 @@ check_suites = \
     tests/unit/test_distance_windows \
     tests/unit/test_slips \
     tests/unit/test_slip_pairs \
+    tests/unit/test_half_planes \
     tests/unit/test_orbits \
     tests/unit/test_shared_solids \
     tests/unit/test_time_models \
@@ -505,6 +506,8 @@ tests_unit_test_linked_in_SOURCES = tests/unit/test_linked_in.c tests/support/al
 tests_unit_test_linked_in_LDFLAGS = $(alloc_failure_ldflags)
 tests_unit_test_set_values_SOURCES = tests/unit/test_set_values.c tests/support/alloc_failure.c
 tests_unit_test_set_values_LDFLAGS = $(alloc_failure_ldflags)
+tests_unit_test_half_planes_SOURCES = tests/unit/test_half_planes.c tests/support/alloc_failure.c
+tests_unit_test_half_planes_LDFLAGS = $(alloc_failure_ldflags)
 tests_unit_test_query_memory_SOURCES = tests/unit/test_query_memory.c tests/support/alloc_failure.c
 tests_unit_test_query_memory_LDFLAGS = $(alloc_failure_ldflags)
 

@@ -4,6 +4,7 @@
 
 #include "core/broad_phase/candidate.h"
 
+#include "core/base/rounding.h"
 #include "core/tree/bound_audit.h"
 #include "core/witness/witness.h"
 
@@ -68,4 +69,47 @@ imp_code candidate_pair_measure(const candidate_pair *both, imp_error *error)
 {
     const imp_code code = measure(both->side[0], error);
     return code == IMP_SUCCESS ? measure(both->side[1], error) : code;
+}
+
+/* --- Half planes ------------------------------------------------------------------------------ */
+
+/* Bounds k.x over the node from below. Lemma. x is within e of its polynomial, each monomial of
+ * which is within [-1, 1]. Rounding, in units of u S, S the sum of all terms' sizes: a product, two
+ * sums and those of 9 coefficients. */
+enum { HEIGHT_ROUNDING = 1 + 2 + 9 };
+PAD_COVERS(32, HEIGHT_ROUNDING + 2 + 9);
+static double height_lower(const node *n, const double k[3], double sign)
+{
+    const quadratic3 *f = &n->f;
+    const double *const terms[] = {f->bu,  f->bv,  f->bt,  f->quu, f->quv,
+                                   f->qut, f->qvv, f->qvt, f->qtt};
+    double middle = 0, size = 0, spread = 0;
+    for (int i = 0; i < 3; ++i) {
+        middle += sign * k[i] * f->a[i];
+        size += fabs(k[i] * f->a[i]);
+        spread += fabs(k[i]) * n->e[i];
+    }
+    for (size_t j = 0; j < sizeof terms / sizeof *terms; ++j) {
+        double term = 0;
+        for (int i = 0; i < 3; ++i) {
+            term += k[i] * terms[j][i];
+            size += fabs(k[i] * terms[j][i]);
+        }
+        spread += fabs(term);
+    }
+    const double slack = padded_upper(spread + 32 * UNIT_ROUNDOFF * size, 32) + PRODUCTS_UNDERFLOW;
+    return difference_lower(middle, slack);
+}
+
+static bool misses(const half_plane *h, const node *n)
+{
+    if (h == NULL || n->many != NULL || !n->bounded || n->is_bare) return false;
+    return height_lower(n, h->across, 1) > h->across_hi ||
+           height_lower(n, h->across, -1) > -h->across_lo ||
+           height_lower(n, h->along, -1) > -h->along_lo;
+}
+
+bool candidate_pair_leaves_out(const candidate_pair *both, const node *a, const node *b)
+{
+    return misses(both->side[0]->half, a) || misses(both->side[1]->half, b);
 }

@@ -5,6 +5,7 @@
 
 #include "core/bounds/distance.h"
 #include "core/scene/scene.h"
+#include "core/surface/half_plane.h"
 #include "core/tree/node.h"
 
 /* Surfaces that a query examines, and pairs of them
@@ -18,6 +19,7 @@ typedef struct candidate {
     double eval_error; /* of evaluated points, about; < 0: not measured yet; length */
     size_t still_maps; /* once measured: surface_still_maps, if it has distances */
     bool moves;        /* once measured: a point was seen to move; false if it has pieces */
+    half_plane *half;  /* the list's: nodes that miss it are left out; NULL: none are */
 } candidate;
 
 /* Two candidates of different bodies that may come near each other. */
@@ -40,5 +42,9 @@ static inline bool candidate_pair_is_first(const candidate_pair *pairs, size_t k
 /* Measures eval_error, still_maps and moves of both, unless they are known: once for each surface
  * of a query, and only if its pairs are expanded. */
 imp_code candidate_pair_measure(const candidate_pair *both, imp_error *error);
+
+/* Whether every point of a pair of these nodes may be left out, since one node misses its
+ * candidate's half plane: another pair holds points that are as near, but for the list's slip. */
+bool candidate_pair_leaves_out(const candidate_pair *both, const node *a, const node *b);
 
 #endif

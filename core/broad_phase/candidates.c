@@ -173,6 +173,7 @@ imp_code candidates_find(candidate_list *list, imp_scene *scene, const imp_optio
         options->baseline == IMP_BASELINE_NONE; /* the paper's algorithm has no frames */
     collection all = {.scene = scene,
                       .slip_most = collection_slip_most(options, search->may_rest),
+                      .may_halve = search->may_halve,
                       .common_motion = models ? collection_common_motion(scene) : 0,
                       .options = options,
                       .limit = limit,
@@ -186,7 +187,8 @@ imp_code candidates_find(candidate_list *list, imp_scene *scene, const imp_optio
     collection_count_rest(&all);
     if (done) code = collect_pairs(&all, &done, error);
     if (done && models && !search->in_parts) code = collection_use_frames(&all, &done, error);
-    if (done && !search->in_parts) code = collection_make_roots(&all, &done, error);
+    if (done && code == IMP_SUCCESS && !search->in_parts)
+        code = collection_make_roots(&all, &done, error);
     if (all.tree_ended && collection_must_end(&all)) code = IMP_SUCCESS, done = false;
     if (all.boxes != all.at_hand) free(all.boxes);
     free(all.surfaces);
@@ -198,13 +200,16 @@ imp_code candidates_find(candidate_list *list, imp_scene *scene, const imp_optio
 
 uint64_t candidates_bytes(const candidate_list *list)
 {
-    return list->count * sizeof *list->candidates + list->pair_capacity * sizeof *list->pairs;
+    return list->count * sizeof *list->candidates + list->pair_capacity * sizeof *list->pairs +
+           list->half_planes * sizeof(half_plane);
 }
 
 void candidates_clear(candidate_list *list)
 {
     for (size_t k = 0; list->owns_trees && list->candidates != NULL && k < list->count; ++k)
         tree_free(list->candidates[k].tree);
+    for (size_t k = 0; list->half_planes > 0 && k < list->count; ++k)
+        free(list->candidates[k].half);
     if (list->candidates != list->at_hand) free(list->candidates);
     free(list->pairs);
     *list = (candidate_list){0};

@@ -13,8 +13,9 @@
  *
  * If each surface of a pair turns only within itself, or by a symmetry of the other, the pair has
  * trees of one moment, the first at which both exist: at any other time the distance of the
- * surfaces differs by at most the list's slip. A distance of c proved for the list is one of c -
- * slip for the surfaces. */
+ * surfaces differs by at most the list's slip. Where both are closed about one line, nodes that
+ * miss a half plane are left out: others are as near, but for the list's slip. A distance of c
+ * proved for the list is one of c - slip for the surfaces. */
 
 enum { CANDIDATES_AT_HAND = 3 }; /* stored in the list itself */
 
@@ -24,7 +25,9 @@ typedef struct candidate_list {
     size_t count;
     candidate_pair *pairs; /* by body of a, body of b, surface of a, surface of b */
     size_t pair_count, pair_capacity;
-    double slip; /* >= surface_pair_slip of each pair whose trees hold one moment; length */
+    double slip; /* >= surface_pair_slip of each pair whose trees hold one moment, with the slip of
+                    surface_half_plane where that is used; length */
+    size_t half_planes;
     bool complete;
     bool owns_trees; /* else they are the scene's */
 } candidate_list;    /* begins as {0}, and stays where it is once filled; candidates_clear frees */
@@ -44,9 +47,11 @@ typedef struct candidate_limit {
 typedef struct candidate_search {
     double gamma_clear;
     bool is_nearest; /* pairs may be left out that are farther than another pair at all times */
-    bool may_rest; /* pairs that turn within themselves may have trees of one moment: in a query of
+    bool may_rest;  /* pairs that turn within themselves may have trees of one moment: in a query of
                       all times, not of slices */
-    bool in_parts; /* candidates_frame is asked for frames and missing roots, for some pairs at a
+    bool may_halve; /* nodes that miss a half plane may be left out: each pair that is left need
+                       not be near all points that it stands for (proofs, spreads) */
+    bool in_parts;  /* candidates_frame is asked for frames and missing roots, for some pairs at a
                       time, so that the first pairs are searched before the last are prepared */
 } candidate_search;
 
@@ -61,8 +66,9 @@ imp_code candidates_find(candidate_list *list, imp_scene *scene, const imp_optio
  * collected `in_parts`, with the scene's trees in the frames of these pairs. `whole` is only read,
  * possibly by several threads. What it adds to the scene's trees is added to `stats`. */
 imp_code candidates_frame(candidate_list *list, const candidate_list *whole, size_t first,
-                          size_t count, imp_scene *scene, const imp_options *options, bool may_rest,
-                          const candidate_limit *limit, imp_stats *stats, imp_error *error);
+                          size_t count, imp_scene *scene, const imp_options *options,
+                          const candidate_search *search, const candidate_limit *limit,
+                          imp_stats *stats, imp_error *error);
 
 /* Fills an empty list with `count` pairs of another from `first` on and with its own trees, one for
  * each side on which a surface occurs. `whole` is only read, possibly by several threads. Bytes are

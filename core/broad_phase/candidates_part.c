@@ -34,6 +34,11 @@ static candidate *own_candidate(candidate *slot, const candidate *from, imp_stat
     if (slot->tree != NULL) return slot;
     *slot = (candidate){
         .body = from->body, .surface = from->surface, .left_out = from->left_out, .eval_error = -1};
+    if (from->half != NULL) {
+        slot->half = malloc(sizeof *slot->half);
+        if (slot->half == NULL) return NULL;
+        *slot->half = *from->half;
+    }
     tree_growth growth = {0};
     if (tree_new_from_root(from->tree, &slot->tree, &growth, NULL) != IMP_SUCCESS) return NULL;
     stats->bytes += growth.bytes;
@@ -49,6 +54,7 @@ imp_code candidates_part(candidate_list *list, const candidate_list *whole, size
                              .pair_count = count,
                              .pair_capacity = count,
                              .slip = whole->slip,
+                             .half_planes = whole->half_planes,
                              .complete = true,
                              .owns_trees = true};
     list->candidates = calloc(list->count, sizeof *list->candidates);
@@ -116,11 +122,13 @@ static imp_code make_roots(collection *all, imp_error *error)
 /* Pairs for which a limit ends the making of frames keep the trees that they have: bounds of these
  * hold, too. */
 imp_code candidates_frame(candidate_list *list, const candidate_list *whole, size_t first,
-                          size_t count, imp_scene *scene, const imp_options *options, bool may_rest,
-                          const candidate_limit *limit, imp_stats *stats, imp_error *error)
+                          size_t count, imp_scene *scene, const imp_options *options,
+                          const candidate_search *search, const candidate_limit *limit,
+                          imp_stats *stats, imp_error *error)
 {
     collection all = {.scene = scene,
-                      .slip_most = collection_slip_most(options, may_rest),
+                      .slip_most = collection_slip_most(options, search->may_rest),
+                      .may_halve = search->may_halve,
                       .options = options,
                       .limit = limit,
                       .stats = stats,

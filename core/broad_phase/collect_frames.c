@@ -5,9 +5,10 @@
 #include <math.h>
 #include <stdlib.h>
 
+#include "core/base/rounding.h"
 #include "core/base/status.h"
 #include "core/bounds/time_window.h"
-#include "core/broad_phase/collection.h"
+#include "core/broad_phase/frame_list.h"
 #include "core/common/array.h"
 
 /* Pairs in the frame that both surfaces move in, and pairs searched at one moment
@@ -27,23 +28,6 @@
  * moment (surface_pair_slip). If it is above c + s at the moment, it is above c at all times; a
  * contact at the moment, the first at which both exist, is the earliest. So such a pair has trees
  * of that moment alone. */
-
-/* A surface in one frame: candidate `of` in the form `view`. */
-typedef struct frame {
-    size_t of;
-    size_t next; /* of the same candidate, or NONE */
-    surface_view view;
-    candidate made;
-} frame;
-
-#define NONE SIZE_MAX
-
-typedef struct frame_list {
-    frame *at;
-    size_t count, capacity;
-    size_t *first;        /* of each candidate, or NONE */
-    size_t (*of_pair)[2]; /* frames of its two sides */
-} frame_list;
 
 size_t collection_common_motion(const imp_scene *scene)
 {
@@ -87,16 +71,19 @@ static bool any_has_frame(const collection *all)
     const candidate_list *list = all->list;
     bool any = false;
     for (size_t k = 0; k < list->pair_count && !any; ++k)
-        any = motion_of(&list->pairs[k]) > 0 || may_turn_within(all, &list->pairs[k]);
+        any = motion_of(&list->pairs[k]) > 0 || may_turn_within(all, &list->pairs[k]) ||
+              frames_may_have_half_planes(all, &list->pairs[k]);
     return any;
 }
 
 /* --- Frames ----------------------------------------------------------------------------------- */
 
-static bool are_equal(const surface_view *x, const surface_view *y)
+/* A frame with a half plane belongs to one pair. */
+static bool are_equal(const frame *x, const surface_view *y)
 {
-    return x->left_out == y->left_out &&
-           (x->moment == y->moment || (isnan(x->moment) && isnan(y->moment)));
+    const double moment = x->view.moment;
+    return x->made.half == NULL && x->view.left_out == y->left_out &&
+           (moment == y->moment || (isnan(moment) && isnan(y->moment)));
 }
 
 /* Returns the candidate's frame, made now unless it exists. *found NONE: a limit was reached
@@ -106,11 +93,9 @@ static imp_code find_frame(collection *all, frame_list *frames, const candidate 
 {
     const size_t of = (size_t)(c - all->list->candidates);
     for (*found = frames->first[of]; *found != NONE; *found = frames->at[*found].next)
-        if (are_equal(&frames->at[*found].view, view)) return IMP_SUCCESS;
-    frame *grown = array_reserve(frames->at, frames->count, &frames->capacity, sizeof *grown);
-    if (grown == NULL) return error_set_memory(error);
-    frames->at = grown;
-    frame *made = &grown[frames->count];
+        if (are_equal(&frames->at[*found], view)) return IMP_SUCCESS;
+    frame *made = frame_list_next(frames);
+    if (made == NULL) return error_set_memory(error);
     *made = (frame){of, frames->first[of], *view, *c};
     bool exists = true;
     if (view->left_out != c->left_out || !isnan(view->moment)) {
@@ -153,8 +138,9 @@ static imp_code find_slip(collection *all, candidate *const side[2], time_window
     return surface_set_code(status, error);
 }
 
-/* Gives a pair that only turns within itself trees of one moment. */
-static imp_code rest_pair(collection *all, frame_list *frames, size_t k, imp_error *error)
+/* Gives a pair that only turns within itself trees of one moment. *found: their slip, or 0. */
+static imp_code rest_pair(collection *all, frame_list *frames, size_t k, double *found,
+                          imp_error *error)
 {
     const candidate_pair *p = &all->list->pairs[k];
     size_t *of_pair = frames->of_pair[k];
@@ -163,6 +149,7 @@ static imp_code rest_pair(collection *all, frame_list *frames, size_t k, imp_err
     double slip;
     imp_code code = find_slip(all, side, &times, &slip, error);
     if (code != IMP_SUCCESS || !(slip <= all->slip_most)) return code;
+    *found = slip;
     for (int j = 0; j < 2 && code == IMP_SUCCESS; ++j) {
         surface_view view = frames->at[of_pair[j]].view;
         view.moment = times.lo;
@@ -190,10 +177,13 @@ static imp_code find_frames(collection *all, frame_list *frames, bool *done, imp
             code = find_frame(all, frames, c, &view, &frames->of_pair[k][side], error);
             *done = frames->of_pair[k][side] != NONE;
         }
+        double slip = 0;
         if (code == IMP_SUCCESS && *done && may_turn_within(all, p)) {
-            code = rest_pair(all, frames, k, error);
+            code = rest_pair(all, frames, k, &slip, error);
             *done = frames->of_pair[k][0] != NONE && frames->of_pair[k][1] != NONE;
         }
+        if (code == IMP_SUCCESS && *done && frames_may_have_half_planes(all, p))
+            code = frames_halve_pair(all, frames, k, slip, error);
         *done = *done && code == IMP_SUCCESS;
         if (!*done) return code;
     }
@@ -232,7 +222,9 @@ imp_code collection_use_frames(collection *all, bool *done, imp_error *error)
     imp_code code = IMP_SUCCESS;
     if (frames.first == NULL || frames.of_pair == NULL) code = error_set_memory(error);
     if (code == IMP_SUCCESS) code = find_frames(all, &frames, done, error);
-    if (code == IMP_SUCCESS && *done && !take_frames(list, &frames)) code = error_set_memory(error);
+    const bool taken = code == IMP_SUCCESS && *done && take_frames(list, &frames);
+    if (code == IMP_SUCCESS && *done && !taken) code = error_set_memory(error);
+    if (!taken) frames_forget_half_planes(list, &frames);
     free(frames.at);
     free(frames.first);
     free(frames.of_pair);

@@ -57,6 +57,7 @@ static imp_code split(impact *im, const pair *p, cut c, const net_halves *halves
         imp_code code = IMP_SUCCESS;
         if (near[half])
             code = cut_take(&c, half, candidate_pair_of(im, p), &child, &some, im->stats, error);
+        some = some && !pair_is_left_out(&child, candidate_pair_of(im, p));
         if (code == IMP_SUCCESS && some) pair_note_cut(im->proof, &child, &c, half);
         if (code == IMP_SUCCESS && some)
             code = is_cut ? push_cut(im, &child, error) : test_and_push(im, &child, error);

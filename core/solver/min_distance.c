@@ -19,12 +19,14 @@
 /* --- Bounds and limits ------------------------------------------------------------------------ */
 
 /* Returns the distance above which pairs are pruned. Lemma. In the end lower is at least (1 - R')
- * upper with R' = R (1 - 2^-20), off by 2 u upper at most; as R >= 2^-30, upper - lower is then at
- * most R upper. Where a distance is required, upper is above it and (1 - R') upper below, the
- * bracket is narrowed until lower reaches `relaxed`. */
+ * upper with R' = R (1 - 2^-20), off by 4 u upper at most; as R >= 2^-30, upper - lower is then at
+ * most R upper. The slip, which is taken off in the end, is added first where R leaves room for it.
+ * Where a distance is required, upper is above it and (1 - R') upper below, the bracket is narrowed
+ * until lower reaches `relaxed`. */
 static double enough(const min_distance *m)
 {
-    const double part = (1 - m->tolerance * (1 - 0x1p-20)) * m->upper;
+    double part = (1 - m->tolerance * (1 - 0x1p-20)) * m->upper;
+    if (m->slip > 0 && 4 * m->slip <= m->tolerance * m->upper) part = sum_upper(part, m->slip);
     return m->upper > m->required && part < m->relaxed ? m->relaxed : part;
 }
 
@@ -210,7 +212,7 @@ static imp_code split(min_distance *m, const pair *p, cut c, imp_error *error)
         const imp_code code =
             cut_take(&c, half, &m->candidates[p->candidate_pair], &child, &some, m->stats, error);
         if (code != IMP_SUCCESS) return code;
-        if (!some) continue;
+        if (!some || pair_is_left_out(&child, &m->candidates[p->candidate_pair])) continue;
         pair_note_cut(m->proof, &child, &c, half);
         test_and_push(m, child);
     }

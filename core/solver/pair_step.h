@@ -41,6 +41,12 @@ imp_code pair_look(const pair *p, candidate_pair *both, double limit, strategy_g
  * the node's remainder is too small to matter. */
 cut pair_cut_alone(const pair *p, const distance_outcome *seen, double scale);
 
+/* Whether the pair lies where others stand for it (half_plane.h). */
+static inline bool pair_is_left_out(const pair *p, const candidate_pair *both)
+{
+    return candidate_pair_leaves_out(both, p->a, p->b);
+}
+
 /* Pushes the pair; among pairs of the same first key, nearer centres at time t come first. Counts
  * it in *serial and `stats`. Precondition: the heap has capacity. */
 void pair_push(pair_heap *heap, pair *p, double t, uint64_t *serial, imp_stats *stats);

@@ -64,6 +64,16 @@ static bool is_nearest(const imp_query *query)
     return query->clearance != NULL && !clearance_is_each(query->clearance);
 }
 
+/* Half planes are left out where a verifier, or a box of values, sees each pair of points. */
+static candidate_search search_of(const imp_query *query, double near)
+{
+    return (candidate_search){.gamma_clear = near,
+                              .is_nearest = is_nearest(query),
+                              .may_rest = may_rest(query),
+                              .may_halve = query->proof == NULL && query->impact.spread == NULL,
+                              .in_parts = query->divided > 0};
+}
+
 /* If a limit ends it, the next step starts it again. For a minimum distance without `within`, all
  * surfaces are candidates, however far apart, but where there are many. */
 imp_code query_collect(imp_query *query, double start, imp_error *error)
@@ -72,10 +82,7 @@ imp_code query_collect(imp_query *query, double start, imp_error *error)
         query->clearance == NULL ? query->impact.gamma_clear : clearance_near(query->clearance);
     collecting c = {query, query->stats.seconds, start, IMP_REASON_NONE};
     const candidate_limit limit = {limit_is_reached, limit_is_near, &c};
-    const candidate_search search = {.gamma_clear = near,
-                                     .is_nearest = is_nearest(query),
-                                     .may_rest = may_rest(query),
-                                     .in_parts = query->divided > 0};
+    const candidate_search search = search_of(query, near);
     const imp_code code = candidates_find(&query->candidates, query->scene, &query->options,
                                           &search, &limit, &query->stats, error);
     query->impact.gamma_clear = query_searched_gamma_clear(query, query->gamma_clear);
@@ -92,10 +99,11 @@ imp_code query_collect_part(imp_query *part, const imp_query *whole, size_t inde
     const size_t first = parts->first[index], count = parts->first[index + 1] - first;
     collecting c = {part, 0, clock_seconds(), IMP_REASON_NONE};
     const candidate_limit limit = {limit_is_reached, limit_is_near, &c};
+    const candidate_search search = search_of(whole, 0);
     candidate_list framed = {0};
     imp_stats shared = {0};
     imp_code code = candidates_frame(&framed, &whole->candidates, first, count, part->scene,
-                                     &part->options, may_rest(whole), &limit, &shared, error);
+                                     &part->options, &search, &limit, &shared, error);
     atomic_fetch_add(&whole->parts->nodes, shared.nodes);
     atomic_fetch_add(&whole->parts->bytes, shared.bytes);
     if (code == IMP_SUCCESS)

@@ -6,66 +6,16 @@
 #include <string.h>
 
 #include "core/base/rounding.h"
-#include "core/surface/carried.h"
+#include "core/surface/feature.h"
 #include "core/surface/region.h"
 
 /* What a symmetry makes of motion and of whole orbits. All maps here are exact rotations and
  * shifts; other motions are not bounded. */
 
-/* A symmetry's center and axis as the surface's maps carry them. */
-typedef struct feature {
-    imp_symmetry of; /* before the maps */
-    imp_model center[3], axis[3];
-} feature;
-
-static imp_status carry(const surface *s, const imp_symmetry *of, const imp_region *times,
-                        feature *f)
-{
-    carried center = {.off = 0};
-    f->of = *of;
-    for (int i = 0; i < 3; ++i) {
-        center.at[i] = imp_num(of->center[i]);
-        f->axis[i] = imp_num(of->axis[i]);
-    }
-    for (size_t k = 0; k < s->map_count; ++k) {
-        imp_pose pose;
-        double d;
-        const imp_status status = carried_pose(s, k, times, &pose, &d);
-        if (status != IMP_STATUS_OK) return status;
-        carried_push(&pose, d, &center);
-        carried_turn(&pose, f->axis);
-    }
-    memcpy(f->center, center.at, sizeof f->center);
-    return IMP_STATUS_OK;
-}
-
 static imp_region at_moment(double moment)
 {
     return region_make((double[3]){0, 0, moment}, (double[3]){0, 0, moment});
 }
-
-static void difference(const imp_model x[3], const imp_model y[3], imp_model way[3])
-{
-    for (int i = 0; i < 3; ++i) way[i] = imp_sub(x[i], y[i]);
-}
-
-/* >= the distance of the points of a box from one with these models. */
-static double reach_upper(const double lo[3], const double hi[3], const imp_model from[3])
-{
-    imp_model way[3];
-    for (int i = 0; i < 3; ++i) way[i] = imp_sub(imp_between(lo[i], hi[i]), from[i]);
-    return surface_size_upper(way);
-}
-
-/* 1 / |axis|, off by less than 8 u of it: squares, sums, halved by the root, root, quotient. */
-static double inverse_length(const imp_symmetry *of)
-{
-    const double *x = of->axis;
-    return 1 / sqrt(x[0] * x[0] + x[1] * x[1] + x[2] * x[2]);
-}
-
-/* What a unit axis with a length within 8 u of 1 is off by, of two of them, at most. */
-#define AXES_OFF 0x1p-48
 
 static bool are_finite(const imp_model x[3])
 {
@@ -82,7 +32,7 @@ static imp_status base_of(const surface *b, const imp_symmetry *of, const carry_
 {
     const surface bare = {.map_count = 0};
     const imp_region at = at_moment(base->is_bare ? 0 : base->moment);
-    return carry(base->is_bare ? &bare : b, of, &at, f);
+    return feature_carry(base->is_bare ? &bare : b, of, &at, f);
 }
 
 /* Lemma. Let M(t) be what b's maps do, and M0 what they do at the moment, or 1; c(t) and n(t) the
@@ -102,14 +52,14 @@ imp_status surface_carry_slip(const surface *b, const double lo[3], const double
     *slip = INFINITY;
     if (!carried_exactly(b)) return IMP_STATUS_OK;
     imp_status status = surface_symmetry(b, &found);
-    if (status == IMP_STATUS_OK) status = carry(b, &found, times, &now);
+    if (status == IMP_STATUS_OK) status = feature_carry(b, &found, times, &now);
     if (status == IMP_STATUS_OK) status = base_of(b, &found, base, &then);
     if (status != IMP_STATUS_OK) return status == IMP_STATUS_UNBOUNDED ? IMP_STATUS_OK : status;
     if (!are_finite(now.center)) return IMP_STATUS_OK;
     if (found.kind == IMP_SYMMETRY_ABOUT_POINT) return *slip = 0, IMP_STATUS_OK;
-    difference(now.axis, then.axis, turn);
-    const double angle = surface_size_upper(turn) * inverse_length(&found) + AXES_OFF;
-    const double most = padded_upper(angle * reach_upper(lo, hi, now.center), 16);
+    feature_difference(now.axis, then.axis, turn);
+    const double angle = surface_size_upper(turn) * feature_inverse_length(&found) + AXES_OFF;
+    const double most = padded_upper(angle * feature_reach_upper(lo, hi, now.center), 16);
     if (most >= 0) *slip = most;
     return IMP_STATUS_OK;
 }
@@ -120,37 +70,14 @@ imp_status surface_carry_way(const surface *b, const imp_region *region, const c
     imp_symmetry found;
     feature now, then;
     imp_status status = surface_symmetry(b, &found);
-    if (status == IMP_STATUS_OK) status = carry(b, &found, region, &now);
+    if (status == IMP_STATUS_OK) status = feature_carry(b, &found, region, &now);
     if (status == IMP_STATUS_OK) status = base_of(b, &found, base, &then);
     if (status != IMP_STATUS_OK) return status;
-    difference(now.center, then.center, way);
+    feature_difference(now.center, then.center, way);
     return are_finite(way) ? IMP_STATUS_OK : IMP_STATUS_UNBOUNDED;
 }
 
 /* --- Orbits ----------------------------------------------------------------------------------- */
-
-/* Bounds d = |(c_a - c_b) x n_a| and |n_a - n_b|, n_b being that of the two directions of b's axis
- * which is nearer. Roundings of d: 8 of the inverse length. */
-PAD_COVERS(64, 8);
-static void compare_lines(const feature *a, const feature *b, double *off, double *angle)
-{
-    imp_model way[3], n[2][3], across[3], turn[3];
-    double length[2] = {inverse_length(&a->of), inverse_length(&b->of)}, cosine = 0;
-    difference(a->center, b->center, way);
-    for (int i = 0; i < 3; ++i) cosine += a->axis[i].a * b->axis[i].a;
-    if (cosine < 0) length[1] = -length[1];
-    for (int i = 0; i < 3; ++i) {
-        n[0][i] = imp_scale(a->axis[i], length[0]);
-        n[1][i] = imp_scale(b->axis[i], length[1]);
-    }
-    for (int i = 0; i < 3; ++i) {
-        const int j = (i + 1) % 3, k = (i + 2) % 3;
-        across[i] = imp_sub(imp_mul(way[j], n[0][k]), imp_mul(way[k], n[0][j]));
-    }
-    difference(n[0], n[1], turn);
-    *off = padded_upper(surface_size_upper(across), 64);
-    *angle = surface_size_upper(turn) + AXES_OFF;
-}
 
 /* Lemma. Let S be a rotation about a's line, or about a's center, and F a rigid motion that takes
  * b's line to a's, or b's center to a's: then S' = F^-1 S F is a rotation about b's line or center,
@@ -168,13 +95,13 @@ static double orbit_slip_upper(const feature *a, const feature *b, const double 
                                const double hi[3])
 {
     double d = 0, angle = 0, s;
-    compare_lines(a, b, &d, &angle);
+    feature_compare_lines(a, b, &d, &angle);
     if (b->of.kind == IMP_SYMMETRY_ABOUT_POINT)
         s = d;
     else if (b->of.kind == IMP_SYMMETRY_ACROSS_LINE)
-        s = reach_upper(lo, hi, a->center) * angle;
+        s = feature_reach_upper(lo, hi, a->center) * angle;
     else
-        s = (reach_upper(lo, hi, b->center) + d) * angle + d;
+        s = (feature_reach_upper(lo, hi, b->center) + d) * angle + d;
     return padded_upper(2 * s, 16);
 }
 
@@ -199,19 +126,19 @@ imp_status surface_orbit_slip(const surface *a, const surface *b, const double l
     imp_status status = surface_symmetry(a, &own);
     if (status == IMP_STATUS_OK && own.is_closed <= IMP_SYMMETRY_CLOSED) return IMP_STATUS_OK;
     if (status == IMP_STATUS_OK) status = surface_symmetry(b, &other);
-    if (status == IMP_STATUS_OK) status = carry(a, &own, times, &of_a);
-    if (status == IMP_STATUS_OK) status = carry(b, &other, times, &of_b);
+    if (status == IMP_STATUS_OK) status = feature_carry(a, &own, times, &of_a);
+    if (status == IMP_STATUS_OK) status = feature_carry(b, &other, times, &of_b);
     if (status != IMP_STATUS_OK) return status == IMP_STATUS_UNBOUNDED ? IMP_STATUS_OK : status;
     const bool all =
         (own.is_closed & IMP_SYMMETRY_ORBIT_ALL) != 0 && other.kind == IMP_SYMMETRY_ABOUT_POINT;
     if (all) {
         imp_model way[3];
-        difference(of_a.center, of_b.center, way);
+        feature_difference(of_a.center, of_b.center, way);
         *slip = padded_upper(2 * surface_size_upper(way), 16);
         *held = 3;
     }
     const unsigned lines = own.is_closed >> 1 & 3;
-    if (lines == 0 || (all && *slip <= 0x1p-40 * reach_upper(lo, hi, of_b.center)))
+    if (lines == 0 || (all && *slip <= 0x1p-40 * feature_reach_upper(lo, hi, of_b.center)))
         return IMP_STATUS_OK;
     const double along_lines = orbit_slip_upper(&of_a, &of_b, lo, hi);
     if (!(along_lines < *slip)) return IMP_STATUS_OK;
@@ -261,7 +188,7 @@ imp_status surface_ball(const surface *s, const imp_region *region, imp_model ce
     imp_status status = surface_bare_ball(s, region, bare, &most);
     if (status != IMP_STATUS_OK || !(most < INFINITY)) return status;
     status = surface_symmetry(s, &found);
-    if (status == IMP_STATUS_OK) status = carry(s, &found, region, &now);
+    if (status == IMP_STATUS_OK) status = feature_carry(s, &found, region, &now);
     if (status != IMP_STATUS_OK) return status == IMP_STATUS_UNBOUNDED ? IMP_STATUS_OK : status;
     memcpy(center, now.center, sizeof now.center);
     if (are_finite(now.center)) *radius = most;

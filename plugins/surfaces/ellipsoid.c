@@ -50,6 +50,8 @@ static void ellipsoid_formula(const void *self, imp_model u, imp_model v, imp_mo
 }
 IMP_SURFACE_FORMULA(ellipsoid_formula)
 
+/* --- By the gradient -------------------------------------------------------------------------- */
+
 /* At least ||q| - 1|, where the range of |q|^2 is known. */
 static double off_upper(const imp_model *square)
 {
@@ -85,14 +87,82 @@ static double factor_lower(const ellipsoid_instance *s, const imp_model q[3],
     return imp_larger(found, b);
 }
 
+/* --- By a confocal quadric -------------------------------------------------------------------- */
+
+/* The m for which the bound below is best at x: where its derivative by m, 1 - sum a^2 x^2 / (a^2 -
+ * m)^2, is 0. It begins where the normal at x / |q| comes to x, and takes steps of Newton. Any m
+ * below all a^2 is right. */
+static double choose_m(const ellipsoid_instance *s, const double x[3])
+{
+    double length = 0, slope = 0, limit = INFINITY;
+    for (int i = 0; i < 3; ++i) {
+        const double a = s->radii[i], q = x[i] / a;
+        length += q * q;
+        slope += q * q / (a * a);
+        limit = imp_smaller(limit, 0.875 * (a * a));
+    }
+    double m = imp_smaller((1 - sqrt(length)) * length / slope, limit);
+    for (int step = 0; step < 2; ++step) {
+        double rise = 1, bend = 0;
+        for (int i = 0; i < 3; ++i) {
+            const double a = s->radii[i], room = a * a - m, w = a * x[i] / room;
+            rise -= w * w;
+            bend += 2 * w * w / room;
+        }
+        m = imp_smaller(m + rise / bend, limit);
+    }
+    return m;
+}
+
+/* What a^2 - m is divided into, rounded so that it is no better a bound: a double w with w^2 (a^2 -
+ * m) >= 1 for m > 0, <= 1 for m < 0. Roundings of w: square 1 and difference 1, halved by the
+ * root, root 1, quotient 1; the difference is at least a^2 / 8, so that what the square's rounding
+ * does to it counts 8 times. */
+static double weight(double a, double m)
+{
+    const double w = 1 / sqrt(a * a - m);
+    return m > 0 ? w * (1 + 0x1p-49) : w * (1 - 0x1p-49);
+}
+
+/* A bound of the distance of points near those that x stands for; false: none is found. Lemma. For
+ * y on the surface, sum y^2 / a^2 = 1, and any m < a^2, m not 0, 1 / m = l:
+ *
+ *   m > 0:  l |x - y|^2 - sum y^2 / a^2 >= -sum x^2 / (a^2 - m),
+ *   m < 0: -l |x - y|^2 + sum y^2 / a^2 >=  sum x^2 / (a^2 - m),
+ *
+ * the least values over all y of space, each a sum of convex parabolas. So |x - y|^2 >= G = m (1 -
+ * sum x^2 / (a^2 - m)). Equality holds at x = y (1 - m / a^2), coordinate by coordinate, on the
+ * normal at y. With L^2 <= G <= Q^2 and 0 < L, |x - y| >= L + (G - L^2) / (L + Q), the chord of the
+ * root, and any smaller factor will do. */
+static bool confocal_gap(const ellipsoid_instance *s, const imp_model x[3], imp_model *gap)
+{
+    const double middle[3] = {x[0].a, x[1].a, x[2].a}, m = choose_m(s, middle);
+    imp_model scaled[3];
+    if (!(fabs(m) > 0x1p-200 && fabs(m) < 0x1p200)) return false;
+    for (int i = 0; i < 3; ++i) scaled[i] = imp_scale(x[i], weight(s->radii[i], m));
+    const imp_model one = imp_num(1), left = imp_sub(one, sum_of_squares(scaled, 3));
+    const imp_model square = imp_scale(left, m);
+    if (!(square.lo > 0)) return false;
+    const double least = imp_round_down(sqrt(square.lo)), most = greatest_root_upper(&square);
+    if (!(most <= 2 * least)) return false;
+    const double factor = imp_larger(inverse_lower(imp_sum_up(most + least)), 0);
+    const imp_model beyond = imp_scale(imp_sub(square, imp_sqr(imp_num(least))), factor);
+    *gap = imp_add(beyond, imp_num(least));
+    if (m > 0) *gap = imp_neg(*gap);
+    return true;
+}
+
+/* --- Both ------------------------------------------------------------------------------------- */
+
 static imp_model ellipsoid_gap(const void *self, imp_model x, imp_model y, imp_model z, imp_model t)
 {
     const ellipsoid_instance *s = self;
     const imp_model at[3] = {x, y, z};
-    imp_model q[3];
+    imp_model from[3], q[3], gap;
     (void)t;
-    for (int i = 0; i < 3; ++i)
-        q[i] = imp_div(imp_shift(at[i], -s->center[i]), imp_num(s->radii[i]));
+    for (int i = 0; i < 3; ++i) from[i] = imp_shift(at[i], -s->center[i]);
+    if (confocal_gap(s, from, &gap)) return gap;
+    for (int i = 0; i < 3; ++i) q[i] = imp_div(from[i], imp_num(s->radii[i]));
     const imp_model square = sum_of_squares(q, 3);
     return imp_scale(beyond_radius(square, 1), factor_lower(s, q, &square));
 }

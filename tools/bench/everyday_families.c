@@ -120,7 +120,7 @@ const everyday_family everyday_families[] = {
      ""},
     {"ellipsoid in its hollow", "{'type':'ellipsoid','radii':[1.5,1,1]}", "",
      "{'type':'ellipsoid','radii':[~1.5,~1,~1]}", TURN("1,0,0", "2"), BOND_NONE, 0, false, "1234",
-     1000, "4", "1234"},
+     1000, "", ""},
     {"capsules that slide along", CAPSULE("0.5", "0,0,-1", "0,0,1"), "",
      CAPSULE("0.5", "@1,0,-1", "@1,0,1"), MOVE("0,0,0.5"), BOND_NONE, 0, false, FIVE, 100, "", ""},
     /* meshes */

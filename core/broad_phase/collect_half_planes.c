@@ -1,0 +1,85 @@
+/* SPDX-FileCopyrightText: The Impinge authors
+ * SPDX-License-Identifier: Apache-2.0 */
+#include <config.h>
+
+#include <stdlib.h>
+
+#include "core/base/rounding.h"
+#include "core/base/status.h"
+#include "core/broad_phase/frame_list.h"
+#include "core/common/array.h"
+
+/* Pairs of which a half plane stands for all
+ * ==========================================
+ * Lemma. Let two points of a pair, at any time, have companions at that time in a half plane that
+ * are at most s farther from each other (surface_half_plane). If all points in the half plane are
+ * farther than c + s apart, all points are farther than c. So nodes that miss it are left out. */
+
+bool frames_may_have_half_planes(const collection *all, const candidate_pair *p)
+{
+    return all->may_halve && all->slip_most >= 0 &&
+           surface_may_have_half_plane(tree_surface(p->side[0]->tree)) &&
+           surface_may_have_half_plane(tree_surface(p->side[1]->tree));
+}
+
+frame *frame_list_next(frame_list *frames)
+{
+    frame *grown = array_reserve(frames->at, frames->count, &frames->capacity, sizeof *grown);
+    if (grown == NULL) return NULL;
+    frames->at = grown;
+    return &grown[frames->count];
+}
+
+/* Gives one side of a pair a frame of its own, with a half plane. */
+static imp_code add_half_plane(collection *all, frame_list *frames, size_t *of_side,
+                               const half_plane *half, imp_error *error)
+{
+    frame *made = frame_list_next(frames);
+    half_plane *own = made != NULL ? malloc(sizeof *own) : NULL;
+    if (own == NULL) return error_set_memory(error);
+    *made = frames->at[*of_side];
+    *own = *half;
+    made->made.half = own;
+    made->next = frames->first[made->of];
+    *of_side = frames->first[made->of] = frames->count++;
+    all->list->half_planes += 1;
+    return IMP_SUCCESS;
+}
+
+imp_code frames_halve_pair(collection *all, frame_list *frames, size_t k, double slip,
+                           imp_error *error)
+{
+    double lo[2][3], hi[2][3], more;
+    const surface *s[2];
+    half_plane of[2];
+    size_t *of_pair = frames->of_pair[k];
+    tree *const t[2] = {frames->at[of_pair[0]].made.tree, frames->at[of_pair[1]].made.tree};
+    imp_code code = IMP_SUCCESS;
+    for (int side = 0; side < 2 && code == IMP_SUCCESS; ++side) {
+        tree_growth growth = {0};
+        code = tree_make_root(t[side], &growth, error);
+        collection_count(all, &growth);
+        s[side] = tree_surface(t[side]);
+        tree_box(t[side], lo[side], hi[side]);
+    }
+    if (code != IMP_SUCCESS) return code;
+    const time_window times = pair_times(tree_root(t[0]), tree_root(t[1]));
+    if (times.lo > times.hi) return IMP_SUCCESS;
+    const half_plane_boxes boxes = {{lo[0], lo[1]}, {hi[0], hi[1]}};
+    const imp_region over = region_make((double[3]){0, 0, times.lo}, (double[3]){0, 0, times.hi});
+    int asked;
+    const imp_status status = surface_half_plane(s, &boxes, &over, of, &more, &asked);
+    if (status != IMP_STATUS_OK) return distance_fault(s[asked], status, error);
+    slip = sum_upper(slip, more);
+    if (!(slip <= all->slip_most)) return IMP_SUCCESS;
+    for (int side = 0; side < 2 && code == IMP_SUCCESS; ++side)
+        code = add_half_plane(all, frames, &of_pair[side], &of[side], error);
+    if (slip > all->list->slip) all->list->slip = slip;
+    return code;
+}
+
+void frames_forget_half_planes(candidate_list *list, const frame_list *frames)
+{
+    for (size_t f = 0; f < frames->count; ++f) free(frames->at[f].made.half);
+    list->half_planes = 0;
+}

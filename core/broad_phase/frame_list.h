@@ -1,0 +1,41 @@
+/* SPDX-FileCopyrightText: The Impinge authors
+ * SPDX-License-Identifier: Apache-2.0 */
+#ifndef CORE_BROAD_PHASE_FRAME_LIST_H
+#define CORE_BROAD_PHASE_FRAME_LIST_H
+
+#include "core/broad_phase/collection.h"
+
+/* Frames of candidates, for collect_frames.c and collect_half_planes.c. */
+
+/* A surface in one frame: candidate `of` in the form `view`. */
+typedef struct frame {
+    size_t of;
+    size_t next; /* of the same candidate, or NONE */
+    surface_view view;
+    candidate made;
+} frame;
+
+#define NONE SIZE_MAX
+
+typedef struct frame_list {
+    frame *at;
+    size_t count, capacity;
+    size_t *first;        /* of each candidate, or NONE */
+    size_t (*of_pair)[2]; /* frames of its two sides */
+} frame_list;
+
+/* Returns room for one more frame, which is not counted yet. NULL: no memory. */
+frame *frame_list_next(frame_list *frames);
+
+/* Whether both surfaces of the pair may be closed about one line. */
+bool frames_may_have_half_planes(const collection *all, const candidate_pair *p);
+
+/* Lets a half plane stand for all of pair k, if its surfaces are closed about one line. `slip` is
+ * that of its moment. */
+imp_code frames_halve_pair(collection *all, frame_list *frames, size_t k, double slip,
+                           imp_error *error);
+
+/* Frees the half planes of frames that the list does not take. */
+void frames_forget_half_planes(candidate_list *list, const frame_list *frames);
+
+#endif
