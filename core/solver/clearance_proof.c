@@ -28,8 +28,8 @@ clearance_proved clearance_what_is_proved(const clearance_search *c)
     const bool fails = answer->t_violated >= answer->t_start;
     clearance_proved proved = {c->by_violation, 0, answer->t_start,
                                fails ? answer->t_violated : answer->t_end};
-    if (c->by_violation) {
-        proved.apart = clearance_relaxed(c);
+    if (c->by_violation) { /* before one at the start, nothing is proved */
+        proved.apart = fails && !(proved.to > proved.from) ? 0 : clearance_relaxed(c);
         return proved;
     }
     const double room =

@@ -65,13 +65,17 @@ void proof_claim_points(proof_claim *claim, const imp_side *a, const imp_side *b
     claim->within = within;
 }
 
+/* Nothing is proved before a contact at the start; then the two points are all that is claimed:
+ * nothing is nearer than 0. */
 static proof_claim claim_of_contact(const imp_query *query)
 {
     const impact *im = &query->impact;
+    const bool is_proved =
+        query->verdict == IMP_VERDICT_CLEAR || im->t_lower > query->options.t_start;
     proof_claim claim = {.verdict = query->verdict == IMP_VERDICT_CONTACT ? "contact"
                                     : query->verdict == IMP_VERDICT_CLEAR ? "clear"
                                                                           : "undecided",
-                         .apart = query->gamma_clear,
+                         .apart = is_proved ? query->gamma_clear : 0,
                          .from = query->options.t_start,
                          .to = im->t_lower};
     if (query->verdict == IMP_VERDICT_CONTACT)
@@ -122,10 +126,18 @@ static imp_code claim_of_clearance(const imp_query *query, proof_claim *claim, i
 
 /* --- Writing ---------------------------------------------------------------------------------- */
 
-static bool has_ended(const imp_query *query)
+/* Whether the query has ended with something that can be written. */
+static imp_code check_ended(const imp_query *query, imp_error *error)
 {
-    if (query->clearance != NULL) return query->reason == IMP_REASON_NONE;
-    return query->candidates.complete && query->reason != IMP_REASON_RUNNING;
+    const bool complete =
+        query->clearance != NULL ? query->reason == IMP_REASON_NONE : query->candidates.complete;
+    if (query->proof != NULL && complete && query->reason != IMP_REASON_RUNNING) return IMP_SUCCESS;
+    if (query->proof != NULL && query->reason == IMP_REASON_MEMORY) return error_set_memory(error);
+    return error_set(error, IMP_ERROR_USAGE, "proof: this query %s",
+                     query->proof == NULL ? "keeps none"
+                     : query->reason == IMP_REASON_RUNNING
+                         ? "has not ended"
+                         : "was ended by a limit before anything was proved");
 }
 
 proof_search query_proof_search(const imp_query *query)
@@ -139,11 +151,9 @@ proof_search query_proof_search(const imp_query *query)
 FP_APART static imp_code write_proof(const imp_query *query, const char *stated,
                                      const proof_sink *to, imp_error *error)
 {
-    if (query->proof == NULL || !has_ended(query))
-        return error_set(error, IMP_ERROR_USAGE, "proof: this query %s",
-                         query->proof == NULL ? "keeps none" : "has not ended");
+    imp_code code = check_ended(query, error);
+    if (code != IMP_SUCCESS) return code;
     proof_claim claim = claim_of_contact(query);
-    imp_code code = IMP_SUCCESS;
     if (query->clearance != NULL) code = claim_of_clearance(query, &claim, error);
     if (code != IMP_SUCCESS) return code;
     const proof_search search = query_proof_search(query);

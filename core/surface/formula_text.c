@@ -147,9 +147,10 @@ static imp_status write_formula(const shared_instance *origin, const void *self,
     text_buffer raw = {.at = NULL}, closed = raw;
     *text = NULL;
     imp_status status = add_formula(origin, self, &raw);
+    if (status == IMP_STATUS_OK && raw.is_full) status = SURFACE_NO_MEMORY;
     if (status == IMP_STATUS_OK && (raw.is_wrong || raw.length == 0)) status = SURFACE_BAD_FORMULA;
-    if (status == IMP_STATUS_OK && !raw.is_full) bind(&closed, &origin->numbers, raw.at);
-    if (status == IMP_STATUS_OK && (raw.is_full || closed.is_full)) status = IMP_STATUS_INTERNAL;
+    if (status == IMP_STATUS_OK) bind(&closed, &origin->numbers, raw.at);
+    if (status == IMP_STATUS_OK && closed.is_full) status = SURFACE_NO_MEMORY;
     if (status == IMP_STATUS_OK) *text = closed.at;
     if (*text == NULL) free(closed.at);
     free(raw.at);

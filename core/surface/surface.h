@@ -87,6 +87,7 @@ bool surface_undefined_instance(const surface *s, double lo, double hi, surface_
 #define SURFACE_LOST 1007       /* ... was ended because of another instance */
 #define SURFACE_FORKED 1008     /* ... belongs to another process than this one */
 #define SURFACE_NO_PROCESS 1009 /* ... could not be made */
+#define SURFACE_NO_MEMORY 1020  /* for a text of the host's own */
 #define SURFACE_BAD_NET 1010
 #define SURFACE_PIECE_COUNT 1011
 #define SURFACE_NULL_PIECE 1012
@@ -113,8 +114,8 @@ surface_message surface_status_of_last(imp_status status);
 surface_message surface_status_message(const surface *s, imp_status status);
 
 /* Replaces the code of an error by that of the status that caused it, and returns it:
- * IMP_ERROR_USAGE for SURFACE_FORKED, IMP_ERROR_MEMORY for SURFACE_NO_PROCESS, else
- * IMP_ERROR_PLUGIN. */
+ * IMP_ERROR_USAGE for SURFACE_FORKED, IMP_ERROR_MEMORY for SURFACE_NO_PROCESS and
+ * SURFACE_NO_MEMORY, else IMP_ERROR_PLUGIN. */
 imp_code surface_set_code(imp_status status, imp_error *error);
 
 /* Evaluates n points, maps applied, with the contract of imp_surface_type.eval. error may be

@@ -68,6 +68,8 @@ const char *surface_status_text(imp_status status)
     case SURFACE_FORKED:
         return "is isolated in a process that belongs to another process; a copy made by fork "
                "cannot use it: build the registry and the scene there";
+    case SURFACE_NO_MEMORY:
+        return "no memory for its formula";
     case SURFACE_NO_PROCESS:
         return "cannot be isolated: no process could be made";
     default:
@@ -103,6 +105,7 @@ imp_code surface_set_code(imp_status status, imp_error *error)
 {
     const imp_code code = status == SURFACE_FORKED       ? IMP_ERROR_USAGE
                           : status == SURFACE_NO_PROCESS ? IMP_ERROR_MEMORY
+                          : status == SURFACE_NO_MEMORY  ? IMP_ERROR_MEMORY
                           : status == SURFACE_LATE       ? IMP_ERROR_LIMIT
                                                          : IMP_ERROR_PLUGIN;
     if (error != NULL) error->code = code;
