@@ -123,6 +123,7 @@ core_scene = \
     core/scene/scene_change.c core/scene/scene_change.h \
     core/scene/scene_memory.c \
     core/scene/scene_options.c \
+    core/scene/scene_files.c core/scene/scene_files.h \
     core/scene/scene_formula.c \
     core/scene/scene_groups.c core/scene/scene_internal.h \
     core/scene/scene_parameters.c core/scene/scene_parameters.h \

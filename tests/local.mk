@@ -121,6 +121,7 @@ mpfi_suites = \
     tests/unit/test_certificates \
     tests/unit/test_certificate_round \
     tests/unit/test_certificate_changes \
+    tests/unit/test_proof_memory \
     tests/unit/test_plugins \
     tests/unit/test_checker \
     tests/unit/test_distances \
@@ -508,6 +509,10 @@ tests_unit_test_set_values_SOURCES = tests/unit/test_set_values.c tests/support/
 tests_unit_test_set_values_LDFLAGS = $(alloc_failure_ldflags)
 tests_unit_test_half_planes_SOURCES = tests/unit/test_half_planes.c tests/support/alloc_failure.c
 tests_unit_test_half_planes_LDFLAGS = $(alloc_failure_ldflags)
+tests_unit_test_proof_memory_SOURCES = tests/unit/test_proof_memory.c tests/support/alloc_failure.c
+tests_unit_test_proof_memory_CPPFLAGS = $(AM_CPPFLAGS) -DPROOF_DOUBLE
+tests_unit_test_proof_memory_LDFLAGS = $(alloc_failure_ldflags)
+tests_unit_test_proof_memory_LDADD = tools/libverify.la $(LDADD)
 tests_unit_test_query_memory_SOURCES = tests/unit/test_query_memory.c tests/support/alloc_failure.c
 tests_unit_test_query_memory_LDFLAGS = $(alloc_failure_ldflags)
 

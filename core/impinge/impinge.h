@@ -741,8 +741,12 @@ typedef void (*imp_proof_sink)(void *context, const void *bytes, size_t size);
 
 /* Returns the lines of imp_query_write_proof that name the plugin files of the types which the
  * scene uses, "type NAME HASH FILE", each with its end; HASH is the SHA-256 of the file's bytes,
- * and FILE its name without the folder. Types that are linked in have none. NULL on error:
- * IMP_ERROR_FILE, a plugin's file cannot be read any more. The caller frees the text by free(). */
+ * and FILE its name without the folder. Types that are linked in have none. Lines "file HASH NAME"
+ * then name the files that values of the scene name, such as meshes: NAME is the path, from the
+ * folder of the scene's file on where that holds it, with '%' and two digits for '%' and for bytes
+ * that are not shown; HASH is '-' of what is no regular file, or cannot be read any more. Files
+ * that such files name are not listed. NULL on error: IMP_ERROR_FILE, a plugin's file cannot be
+ * read any more. The caller frees the text by free(). */
 IMP_EXPORT char *imp_scene_sources(const imp_scene *scene, imp_error *error);
 
 /* Writes the certificate of a query that keeps a proof and has ended; of an undecided one up to

@@ -20,6 +20,7 @@ imp_code scene_bodies_start(scene_bodies *b, const scene_source *source, imp_err
     if (!assembly_begin(&b->assembly) || b->names == NULL) return error_set_memory(error);
     scene_set_registry(b->assembly.scene, source->registry);
     scene_set_store(b->assembly.scene, registry_store(source->registry));
+    b->instances.source.files = scene_files_of(b->assembly.scene);
     b->instances.parameters = scene_parameters_of(b->assembly.scene);
     return IMP_SUCCESS;
 }
@@ -167,7 +168,9 @@ imp_code scene_bodies_copy(scene_bodies *b, const imp_scene *scene, const place 
     for (size_t g = 0; g < scene_group_count(scene) && code == IMP_SUCCESS; ++g)
         code = add_name(b, scene_group_name(scene, g), -1 - (json_int_t)g);
     if (code != IMP_SUCCESS) return code;
-    return keep(b, scene_copy_relations(scene, b->assembly.scene) == IMP_SUCCESS);
+    scene_files *files = scene_files_of(b->assembly.scene);
+    return keep(b, scene_copy_relations(scene, b->assembly.scene) == IMP_SUCCESS &&
+                       scene_files_copy(scene_files_named(scene), files));
 }
 
 /* --- Parents ---------------------------------------------------------------------------------- */

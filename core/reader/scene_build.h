@@ -11,6 +11,7 @@
 #include "core/plugin/registry.h"
 #include "core/plugin/type_view.h"
 #include "core/reader/reading_budget.h"
+#include "core/scene/scene_files.h"
 #include "core/surface/surface.h"
 
 #include <impinge/examine.h>
@@ -26,6 +27,7 @@ typedef struct scene_source {
         *folder; /* of the scene file, with '/' at its end: where relative names of files begin;
                            NULL: where the process does */
     reading_budget *budget; /* NULL: no limits */
+    scene_files *files;     /* takes the files that values name; NULL: nobody */
 } scene_source;
 
 /* Makes the surface, without maps, or the map that `object` at `at` asks for, or finds one that the

@@ -152,7 +152,7 @@ static imp_scene *scene_of_text(const imp_registry *registry, json_t *root, cons
         error_set_memory(error);
         return NULL;
     }
-    const scene_source source = {registry, folder, budget};
+    const scene_source source = {.registry = registry, .folder = folder, .budget = budget};
     const place at = place_document(name);
     imp_scene *scene = scene_of(&source, root, &at, error);
     free(folder);

@@ -151,13 +151,27 @@ static imp_code find_or_make(kept_instances *kept, scene_making *m, const json_t
     return code;
 }
 
+/* Notes the files that the values name. False: no memory. */
+static bool note_files(const scene_source *source, const scene_making *m)
+{
+    bool kept = true;
+    for (size_t k = 0; k < m->values.count && source->files != NULL && kept; ++k) {
+        const imp_value *v = &m->values.value[k];
+        if (parameter_table_row(&m->view.table, k)->flags & IMP_PARAMETER_FILE && v->count > 0)
+            kept = scene_files_add(source->files, v->string[0], source->folder);
+    }
+    return kept;
+}
+
 imp_code scene_build_shared(const scene_source *source, imp_type_kind kind, const json_t *object,
                             const place *at, shared_instance **made, imp_error *error)
 {
     scene_making m;
     imp_code code = scene_making_begin(&m, source, kind, object, at, error);
     if (code != IMP_SUCCESS) return code;
-    code = find_or_make(registry_kept(source->registry), &m, object, at, made, error);
+    code = note_files(source, &m)
+               ? find_or_make(registry_kept(source->registry), &m, object, at, made, error)
+               : error_set_memory(error);
     scene_making_clear(&m);
     if (code == IMP_SUCCESS) reading_budget_take(source->budget, instance_bytes(*made));
     return code;

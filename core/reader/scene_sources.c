@@ -6,6 +6,7 @@
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
+#include <sys/stat.h>
 
 #include "core/base/status.h"
 #include "core/common/array.h"
@@ -14,7 +15,10 @@
 #include "core/plugin/registry.h"
 #include "core/scene/scene.h"
 
-/* The plugin files of the types that a scene uses, as a certificate names them. */
+/* The plugin files of the types that a scene uses, and the files that its values name, as a
+ * certificate names them. */
+
+/* --- Types ------------------------------------------------------------------------------------ */
 
 typedef struct used_type {
     imp_type_kind kind;
@@ -76,6 +80,57 @@ static imp_code put_types(const imp_scene *scene, FILE *to, imp_error *error)
     return code;
 }
 
+/* --- Files ------------------------------------------------------------------------------------ */
+
+static int compare_paths(const void *x, const void *y)
+{
+    return strcmp(((const scene_file *)x)->path, ((const scene_file *)y)->path);
+}
+
+/* Writes a name; bytes that would change how a line looks, and %, as % and two digits. */
+static void put_name(const char *name, FILE *to)
+{
+    for (const char *c = name; *c != '\0'; ++c)
+        if ((unsigned char)*c < ' ' || *c == 127 || *c == '%')
+            fprintf(to, "%%%02x", (unsigned char)*c);
+        else
+            fputc(*c, to);
+}
+
+static bool is_regular(const char *path)
+{
+    struct stat file;
+    return stat(path, &file) == 0 && S_ISREG(file.st_mode);
+}
+
+/* Writes a line for each file, by path, once. */
+static imp_code put_files(const scene_files *files, FILE *to, imp_error *error)
+{
+    if (files->count == 0) return IMP_SUCCESS;
+    scene_file *sorted = malloc(files->count * sizeof *sorted);
+    if (sorted == NULL) return error_set_memory(error);
+    memcpy(sorted, files->at, files->count * sizeof *sorted);
+    qsort(sorted, files->count, sizeof *sorted, compare_paths);
+    for (size_t k = 0; k < files->count; ++k) {
+        char hash[SHA256_TEXT];
+        if (k > 0 && strcmp(sorted[k].path, sorted[k - 1].path) == 0) continue;
+        const bool is_read = is_regular(sorted[k].path) && sha256_file(sorted[k].path, hash);
+        fprintf(to, "file %s ", is_read ? hash : "-");
+        put_name(sorted[k].name, to);
+        fputc('\n', to);
+    }
+    free(sorted);
+    return IMP_SUCCESS;
+}
+
+/* --- All of them ------------------------------------------------------------------------------ */
+
+static imp_code put_all(const imp_scene *scene, FILE *to, imp_error *error)
+{
+    const imp_code code = put_types(scene, to, error);
+    return code == IMP_SUCCESS ? put_files(scene_files_named(scene), to, error) : code;
+}
+
 char *imp_scene_sources(const imp_scene *scene, imp_error *error)
 {
     char *text = NULL;
@@ -83,7 +138,7 @@ char *imp_scene_sources(const imp_scene *scene, imp_error *error)
     if (scene == NULL) return error_set_missing(error, "imp_scene_sources"), NULL;
     FILE *to = open_memstream(&text, &size);
     if (to == NULL) return error_set_memory(error), NULL;
-    imp_code code = scene_registry(scene) != NULL ? put_types(scene, to, error) : IMP_SUCCESS;
+    imp_code code = scene_registry(scene) != NULL ? put_all(scene, to, error) : IMP_SUCCESS;
     if (fclose(to) != 0 && code == IMP_SUCCESS) code = error_set_memory(error);
     if (code == IMP_SUCCESS) return text;
     free(text);

@@ -51,11 +51,10 @@ static imp_code check(const imp_scene *scene, scene_stage at, imp_error *error)
     return scene_stage_at(scene, at) != NULL ? IMP_SUCCESS : refuse_stage(scene, at, error);
 }
 
-static imp_code make(const imp_scene *scene, const shared_instance *like,
-                     const imp_argument *arguments, size_t count, const place *at,
-                     shared_instance **made, imp_error *error)
+static imp_code make(imp_scene *scene, const shared_instance *like, const imp_argument *arguments,
+                     size_t count, const place *at, shared_instance **made, imp_error *error)
 {
-    const scene_source source = {.registry = scene_registry(scene)};
+    const scene_source source = {.registry = scene_registry(scene), .files = scene_files_of(scene)};
     const imp_type_kind kind = like->surface != NULL ? IMP_TYPE_SURFACE : IMP_TYPE_MAP;
     const char *type = kind == IMP_TYPE_SURFACE ? like->surface->name : like->map->name;
     json_t *object;

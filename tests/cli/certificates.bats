@@ -24,6 +24,20 @@ near='sphere center=2.01,0.1,0.2'
     [[ ${lines[2]} == "two points within 0.01 at t = 0.49"* ]]
 }
 
+@test "a certificate of a contact at the start claims its points alone" {
+    for other in 'sphere center=1.9,0,0' 'sphere center=2,0,0'; do
+        run -0 "$IMPINGE" pair sphere "$other" --proof start.proof
+        [ "${lines[0]}" = 'contact at t = 0' ]
+        run -0 verify start.proof
+        [[ $output == holds*"no two points nearer than 0 from t = 0 to 0"*"two points within 1e-06 at t = 0"* ]]
+    done
+    run -1 "$IMPINGE" clearance sphere 'sphere center=2.1,0,0 ! translate velocity=1,0,0' --require 0.2 \
+        --proof violated.proof
+    run -0 verify violated.proof
+    run -3 "$IMPINGE" pair sphere 'sphere center=2,0,0' --max-pairs 1 --proof open.proof
+    run -0 verify open.proof --quiet
+}
+
 @test "certificates of clear, of a distance and of one that is required hold" {
     "$IMPINGE" pair sphere "$near" --gamma 1e-2 --proof clear.proof
     "$IMPINGE" clearance sphere "$near" --tolerance 0.1 --proof distance.proof
@@ -109,6 +123,50 @@ sealed() {
     run -3 verify receipt scene.json
     [ "$output" = "stale: the scene has changed" ]
     run -2 verify receipt none.json
+}
+
+@test "a receipt is of the files that its scene names, wherever the folder is" {
+    mkdir one two two/parts
+    printf '0,0,0,0\n1,0.5,0,0\n' >'one/100% moves.csv'
+    printf 'v 0 0 3\nv 1 0 3\nv 0 1 3\nf 1 2 3\n' >one/roof.obj
+    jq -n '{bodies: [{surfaces: [{type: "sphere"}],
+                      maps: [{type: "translate", file: "100% moves.csv"}]},
+                     {surfaces: [{type: "mesh", file: "roof.obj"}]},
+                     {surfaces: [{type: "mesh", file: "roof.obj", scale: 2}],
+                      maps: [{type: "translate", velocity: [0, 0, 1]}]}]}' >one/scene.json
+    run -0 "$IMPINGE" solve one/scene.json --gamma 1e-2 --proof receipt
+    [ "$(grep -ac '^file ' receipt)" -eq 2 ]
+    grep -aqx "file $(sha256sum <'one/100% moves.csv' | cut -c 1-64) 100%25 moves.csv" receipt
+    grep -aqx "file $(sha256sum <one/roof.obj | cut -c 1-64) roof.obj" receipt
+    cp one/* two
+    for scene in one/scene.json two/scene.json; do run -0 verify receipt "$scene" --quiet; done
+    (cd one && verify ../receipt scene.json --quiet)
+    echo >>two/roof.obj
+    run -3 verify receipt two/scene.json
+    [ "$output" = "stale: the file roof.obj has changed" ]
+    cp one/roof.obj two
+    rm 'two/100% moves.csv'
+    run -3 verify receipt two/scene.json
+    [ "$output" = "stale: the file 100%25 moves.csv cannot be read" ]
+    run -0 verify receipt one/scene.json --tighten short
+    [ "$(grep -ac '^file ' short)" -eq 2 ]
+    sealed receipt bad 's/^file .* roof.obj/file 12/'
+    run -1 verify bad
+    [[ $output == "refused at byte "*"names no file"* ]]
+}
+
+@test "what cannot be read again is no receipt" {
+    printf 'v 0 0 3\nv 1 0 3\nv 0 1 3\nf 1 2 3\n' >roof.obj
+    echo '{"bodies": [{"surfaces": [{"type": "sphere"}]},
+                      {"surfaces": [{"type": "mesh", "file": "roof.obj"}]}]}' >scene.json
+    "$IMPINGE" solve scene.json --gamma 1e-2 --proof receipt
+    sealed receipt lost 's/^file [0-9a-f]* /file - /'
+    run -3 verify lost scene.json
+    [ "$output" = "stale: the file roof.obj could not be read again when it was written" ]
+    rm roof.obj
+    mkfifo roof.obj # is not waited for
+    run -3 timeout 60 "$top_builddir"/tools/impinge-verify receipt scene.json
+    [ "$output" = "stale: the file roof.obj cannot be read" ]
 }
 
 @test "a receipt names a type once, and files without a folder" {

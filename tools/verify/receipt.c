@@ -7,6 +7,7 @@
 #include <errno.h>
 #include <stdlib.h>
 #include <string.h>
+#include <sys/stat.h>
 #include <unistd.h>
 
 #include "core/common/search_path.h"
@@ -69,6 +70,63 @@ static int check_types(const statement *s, const char *plugin_path)
     return status;
 }
 
+/* --- Files ------------------------------------------------------------------------------------ */
+
+static int digit_of(char c)
+{
+    const char *digits = "0123456789abcdef", *at = c != '\0' ? strchr(digits, c) : NULL;
+    return at != NULL ? (int)(at - digits) : -1;
+}
+
+/* Puts in place of % and two digits the byte that they are. */
+static void decode(char *name)
+{
+    char *to = name;
+    for (const char *c = name; *c != '\0'; ++c) {
+        const int high = *c == '%' ? digit_of(c[1]) : -1, low = high >= 0 ? digit_of(c[2]) : -1;
+        *to++ = (char)(low >= 0 ? 16 * high + low : *c);
+        if (low >= 0) c += 2;
+    }
+    *to = '\0';
+}
+
+/* Returns the path of a file that a scene names; the caller frees it. NULL: no memory. */
+static char *path_of(const char *name, const char *scene)
+{
+    const char *slash = strrchr(scene, '/');
+    const int folder = *name != '/' && slash != NULL ? (int)(slash - scene) + 1 : 0;
+    char *path, *plain = strdup(name);
+    if (plain == NULL) return NULL;
+    decode(plain);
+    const int size = asprintf(&path, "%.*s%s", folder, scene, plain);
+    free(plain);
+    return size >= 0 ? path : NULL;
+}
+
+static int check_file(const source *file, const char *scene)
+{
+    char own[SHA256_TEXT], what[600];
+    char *path = path_of(file->file, scene);
+    if (path == NULL) return stale("memory ran out");
+    struct stat facts; /* only a regular file is read: a pipe might wait forever */
+    const bool is_read =
+        stat(path, &facts) == 0 && S_ISREG(facts.st_mode) && sha256_file(path, own);
+    const char *why = strcmp(file->hash, "-") == 0 ? "could not be read again when it was written"
+                      : !is_read                   ? "cannot be read"
+                                                   : "has changed";
+    snprintf(what, sizeof what, "the file %.400s %s", file->file, why);
+    free(path);
+    return is_read && strcmp(own, file->hash) == 0 ? HOLDS : stale(what);
+}
+
+static int check_files(const statement *s, const char *scene)
+{
+    int status = HOLDS;
+    for (size_t k = 0; k < s->source_count && status == HOLDS; ++k)
+        if (strcmp(s->sources[k].kind, "file") == 0) status = check_file(&s->sources[k], scene);
+    return status;
+}
+
 /* --- The receipt ------------------------------------------------------------------------------ */
 
 static int check_scene(const statement *s, const char *scene)
@@ -96,5 +154,6 @@ int receipt_check(const statement *s, const char *scene, const char *plugin_path
                  strncmp(s->program, "impinge ", 8) == 0 ? s->program + 8 : s->program);
         return stale(what);
     }
+    if (status == HOLDS) status = check_files(s, scene);
     return status == HOLDS ? check_types(s, plugin_path) : status;
 }

@@ -42,10 +42,11 @@ static bool read_source(statement *s, input *in, const char *kind, char **rest)
     if (strcmp(kind, "type") == 0)
         words_copy(in, made->type, sizeof made->type, words_take(in, rest));
     words_copy(in, made->hash, sizeof made->hash, words_take(in, rest));
-    if (strcmp(kind, "type") != 0) return !input_is_refused(in);
-    if (*rest == NULL || strchr(*rest, '/') != NULL)
-        return input_refuse(in, "a type names no file, or a folder");
-    words_copy(in, made->file, sizeof made->file, *rest);
+    if (strcmp(kind, "scene") == 0) return !input_is_refused(in);
+    if (*rest == NULL || (strcmp(kind, "type") == 0 && strchr(*rest, '/') != NULL))
+        return input_refuse(in, "a type or a line 'file' names no file, or a type a folder");
+    made->file = strdup(*rest);
+    if (made->file == NULL) return input_refuse(in, "memory ran out");
     *rest = NULL;
     return !input_is_refused(in);
 }
@@ -179,7 +180,7 @@ static void read_line(statement *s, input *in, char *line, unsigned *keys, bool 
         words_copy(in, s->program, sizeof s->program, rest != NULL ? rest : "");
     else if (strcmp(key, "verdict") == 0 && s->verdict[0] == '\0')
         words_copy(in, s->verdict, sizeof s->verdict, words_take(in, &rest));
-    else if (strcmp(key, "scene") == 0 || strcmp(key, "type") == 0)
+    else if (strcmp(key, "scene") == 0 || strcmp(key, "type") == 0 || strcmp(key, "file") == 0)
         read_source(s, in, key, &rest);
     else if (strcmp(key, "parameter") == 0)
         read_parameter(s, in, &rest);
@@ -236,6 +237,7 @@ void statement_free(statement *s)
     for (size_t k = 0; k < s->chain_count; ++k) free(s->chains[k].stages);
     for (size_t k = 0; k < s->body_count; ++k) free(s->bodies[k]);
     for (size_t k = 1; k < s->clock_count; ++k) free(s->clocks[k].name);
+    for (size_t k = 0; k < s->source_count; ++k) free(s->sources[k].file);
     free(s->sources);
     free(s->stages);
     free(s->chains);

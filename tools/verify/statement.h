@@ -47,8 +47,8 @@ typedef struct point {
 } point;
 
 typedef struct source {
-    char kind[8], type[64], hash[SHA256_TEXT]; /* "scene", "" or "type", its name */
-    char file[256];                            /* of a type: the plugin's, without its folder */
+    char kind[8], type[64], hash[SHA256_TEXT]; /* "scene", "type" with its name, or "file" */
+    char *file; /* of a type: the plugin's, without its folder; a file's name; else NULL */
 } source;
 
 /* What the t of formulas is: time, which is number 0, or a parameter of the scene. */
