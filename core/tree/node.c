@@ -13,7 +13,7 @@
 
 /* --- Memory ----------------------------------------------------------------------------------- */
 
-static const arena_growth node_growth = {4 * sizeof(node), 4, 64 * sizeof(node)};
+static const arena_growth node_growth = {2 * sizeof(node), 2, 64 * sizeof(node)};
 
 /* Reserves memory for a node, which is then published or given back. NULL: no memory. */
 static node *node_reserve(tree *t, tree_growth *growth)

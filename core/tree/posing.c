@@ -24,8 +24,8 @@ typedef struct span {
 
 /* --- Memory ----------------------------------------------------------------------------------- */
 
-/* Blocks of 2, 4 and 8 KiB, and more of these. */
-static const arena_growth posing_growth = {2048, 2, 8192};
+/* Blocks of 1, 2, 4 and 8 KiB, and more of these: most trees of large scenes are small. */
+static const arena_growth posing_growth = {1024, 2, 8192};
 
 /* --- Shapes ----------------------------------------------------------------------------------- */
 
