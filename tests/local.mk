@@ -911,6 +911,7 @@ EXTRA_DIST += tests/variants tests/distributions tests/support/timed
 EXTRA_DIST += $(bats_suites) $(script_suites) $(release_suites) tests/support/include_order \
     tests/support/cli_helper.bash \
     tests/support/comma_locale \
+    tests/support/coq_goals.py \
     tests/support/check_helper.bash tests/support/host_helper.bash \
     tests/support/hostile_helper.bash tests/support/sdk_helper.bash \
     tests/support/simulate_helper.bash \

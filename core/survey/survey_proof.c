@@ -54,7 +54,11 @@ struct survey_proof {
 imp_code imp_survey_keep_proof(imp_survey *s, imp_error *error)
 {
     if (s == NULL) return error_set_missing(error, "imp_survey_keep_proof");
-    if (s->counts.boxes > 0 || s->counts.boxes_before > 0 || s->question.how.resume != NULL)
+    if (s->question.how.resume != NULL)
+        return error_set(error, IMP_ERROR_USAGE,
+                         "proof: the survey goes on from another, of which it is not known how "
+                         "boxes were proved; begin without `resume`");
+    if (s->counts.boxes > 0 || s->counts.boxes_before > 0)
         return error_set(error, IMP_ERROR_USAGE, "proof: this survey has been stepped already");
     if (scene_has_solids(s->scene))
         return error_set(error, IMP_ERROR_USAGE,

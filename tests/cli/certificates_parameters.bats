@@ -66,7 +66,7 @@ END
     run -0 verify part.proof
     [ "${lines[0]}" = holds ]
     run -2 "$IMPINGE" solve arms.json --resume boxes.jsonl --proof part.proof
-    [[ $output == *"--proof and --resume exclude each other"* ]]
+    [[ $output == *"--proof and --resume exclude each other, since how boxes of the run before were proved is not in its file; ask for all of it with --proof, without --resume" ]]
 }
 
 # sealed OLD NEW SED-EXPRESSION: a copy with other lines, and the checksum that belongs to them.
@@ -137,6 +137,29 @@ sealed() {
     [[ $output == clear* ]]
     run -1 verify lie.proof
     [[ $output == "refused at byte "*", x ["*", claimed apart by 0.0005: "* ]]
+}
+
+@test "goals for Coq are of all values of parameters, and true at points of these" {
+    command -v python3 >/dev/null || skip "no python3"
+    for name in door spindle; do
+        "$IMPINGE" solve "$top_srcdir/tools/data/$name.json" --proof "$name.proof"
+        run -0 verify "$name.proof" --coq "$name.v" --goals 10
+        [[ ${lines[-1]} == "goals: 10 of the "*" leaves that Coq can be told, of "* ]]
+        run -0 python3 "$top_srcdir"/tests/support/coq_goals.py "$name.v"
+        [[ $output == "30 statements, "[1-9]*" of ranges" ]]
+    done
+    sed '0,/ <= (\?[0-9/^ ]*)\?\.$/s// <= (-1000000000)./' door.v >wrong.v
+    run -1 python3 "$top_srcdir"/tests/support/coq_goals.py wrong.v
+    [[ $output == *" is false" ]]
+}
+
+@test "Coq proves leaves of a door for all places of its hinge" {
+    command -v coqc >/dev/null || skip "no coqc (coq, libcoq-interval)"
+    echo 'From Interval Require Import Tactic.' >there.v
+    coqc there.v || skip "no library Interval of Coq (libcoq-interval)"
+    "$IMPINGE" solve "$top_srcdir/tools/data/door.json" --gamma 1 --proof door.proof
+    verify door.proof --coq door.v --goals 10
+    coqc door.v
 }
 
 @test "certificates of a door, a spindle and an arm that is off hold" {

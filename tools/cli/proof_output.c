@@ -21,17 +21,18 @@ const option options_proof[] = {{.name = "proof",
 
 exit_status proof_output_check(const arguments *args)
 {
-    static const char *const others[][2] = {
-        {"each", "leave --each out: it is about all bodies"},
-        {"refine", "leave --refine out, and give the last --gamma"},
-        {"resume", "ask without --resume"},
-        {"profile", "leave --profile out, and give the --time of one slice"}};
+    static const char one_answer[] = "a certificate is of one answer";
+    static const char *const others[][3] = {
+        {"each", one_answer, "leave --each out: it is about all bodies"},
+        {"refine", one_answer, "leave --refine out, and give the last --gamma"},
+        {"resume", "how boxes of the run before were proved is not in its file",
+         "ask for all of it with --proof, without --resume"},
+        {"profile", one_answer, "leave --profile out, and give the --time of one slice"}};
     for (size_t k = 0; k < sizeof others / sizeof *others; ++k)
         if (arguments_option(args, "proof") != NULL && arguments_option(args, others[k][0]) != NULL)
             return complain(EXIT_USAGE, args->verb->name,
-                            "--proof and --%s exclude each other, since a certificate is of one "
-                            "answer; %s",
-                            others[k][0], others[k][1]);
+                            "--proof and --%s exclude each other, since %s; %s", others[k][0],
+                            others[k][1], others[k][2]);
     return EXIT_ANSWERED;
 }
 

@@ -17,6 +17,7 @@
 typedef struct goal {
     uint64_t leaf;
     place of[2];
+    values when; /* that both places are of, once they are written */
     box3 where[2];
     double t[2]; /* that both have */
     double n[3], slope, mid, upper, lower, apart;
@@ -39,8 +40,7 @@ static size_t draw(coq *q, size_t below)
 static bool is_told(const place *of, const box3 *where)
 {
     const part **parts = malloc((of->maps + 1) * sizeof *parts);
-    bool told = parts != NULL && coq_find_parts(of, where, parts);
-    for (size_t k = 0; k <= of->maps; ++k) told = told && place_follows_main(of, k);
+    const bool told = parts != NULL && coq_find_parts(of, where, parts);
     free(parts);
     return told;
 }
@@ -71,7 +71,7 @@ static bool take_goal(coq *q, const prover *p, goal *g)
     const double *upper[2];
     ld_interval square = ld_interval_of(0);
     if (a->about != NULL || p->areas[0].count == 0 || p->areas[1].count == 0) return false;
-    *g = (goal){.leaf = q->leaves, .apart = p->apart};
+    *g = (goal){.leaf = q->leaves, .when = p->when, .apart = p->apart};
     for (int side = 0; side < 2; ++side) {
         const area *drawn = &p->areas[side].at[draw(q, p->areas[side].count)];
         g->of[side] = drawn->of;
@@ -145,7 +145,9 @@ static const char head[] =
     "   enclosed boxes of both surfaces; a theorem says that no two points of two of these, at "
     "one\n"
     "   time, are nearer than stated, before the maps that both surfaces share. Numbers that are\n"
-    "   known as intervals, such as pi, are k0, k1, ...; it holds for all their values. *)\n"
+    "   known as intervals, such as pi and values of parameters, are k0, k1, ...; it holds for "
+    "all\n"
+    "   their values. *)\n"
     "From Coq Require Import Reals Lra Psatz.\n"
     "From Interval Require Import Tactic.\n"
     "Open Scope R_scope.\n\n"
@@ -166,9 +168,7 @@ static const char head[] =
     "  assert (0 <= (n2 * z - n3 * y) ^ 2) by apply pow2_ge_0.\n"
     "  assert (0 <= (n3 * x - n1 * z) ^ 2) by apply pow2_ge_0. nra. }\n"
     "apply Rmult_le_reg_r with (1 := N). lra.\n"
-    "Qed.\n\n"
-    "Ltac bounded u v t :=\n"
-    "  interval with (i_bisect u, i_bisect v, i_bisect t, i_depth 100).\n";
+    "Qed.\n";
 
 enum { NAME_SIZE = 40 };
 
@@ -227,7 +227,9 @@ static void put_side(FILE *to, const side_text *s)
     }
     fputs(".\nProof. intros; cbv beta zeta delta [", to);
     coq_put_names(to, s->name, &g->of[s->side]);
-    fputs(" ]; bounded u v t. Qed.\n", to);
+    fputs(" ];\n  interval with (i_bisect u, i_bisect v, i_bisect t", to);
+    coq_put_bisections(to, &g->of[s->side], s->parts);
+    fputs(", i_depth 100). Qed.\n", to);
 }
 
 static void put_theorem(FILE *to, const goal *g, const side_text s[2])
@@ -267,10 +269,11 @@ static void put_theorem(FILE *to, const goal *g, const side_text s[2])
     fputs("assumption ]. Qed.\n", to);
 }
 
-static void put_goal(FILE *to, const goal *g)
+static void put_goal(FILE *to, goal *g)
 {
     const statement *says = g->of[0].of;
     side_text s[2];
+    g->of[0].when = g->of[1].when = &g->when;
     bool good = true;
     fprintf(to, "\n(* Leaf %llu: surfaces %zu and %zu, pieces %zu and %zu *)\n",
             (unsigned long long)g->leaf, (size_t)(g->of[0].chain - says->chains),

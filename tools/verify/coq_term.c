@@ -113,7 +113,11 @@ static void put_other(const writer *w, int which)
 {
     const step *s = &w->f->steps[which];
     if (s->kind == STEP_VARIABLE) {
-        fputc(w->variables[s->operand[0]], w->to);
+        const char letter = w->variables[s->operand[0]];
+        if (letter == 't' && w->clock != SIZE_MAX)
+            fprintf(w->to, "k%zu", w->clock);
+        else
+            fputc(letter, w->to);
     } else if (term_is_range(s)) {
         fprintf(w->to, "k%zu", number_of(w, which));
     } else if (s->kind == STEP_CONSTANT) {

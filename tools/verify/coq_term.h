@@ -3,6 +3,7 @@
 #ifndef TOOLS_VERIFY_COQ_TERM_H
 #define TOOLS_VERIFY_COQ_TERM_H
 
+#include <stdint.h>
 #include <stdio.h>
 
 #include "tools/proof/steps.h"
@@ -17,7 +18,8 @@ typedef struct writer {
     FILE *to;
     const formula *f;
     const char *variables; /* a letter each */
-    size_t first;          /* number of its first constant */
+    size_t first;          /* number of its first constant that is known as an interval */
+    size_t clock;          /* number of the constant that t is; SIZE_MAX: none, t is a variable */
 } writer;
 
 /* Whether a step is a constant that is known as an interval. */

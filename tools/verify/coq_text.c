@@ -54,7 +54,8 @@ bool coq_find_parts(const place *of, const box3 *where, const part *parts[])
     const box3 times = {{-INFINITY, -INFINITY, where->lo[T]}, {INFINITY, INFINITY, where->hi[T]}};
     for (size_t k = 0; k <= of->maps; ++k) {
         const stage *g = &of->of->stages[of->chain->stages[k]];
-        parts[k] = part_of(&g->pieces[k == 0 ? of->piece : 0], k == 0 ? where : &times);
+        const box3 own = place_box(of, k, k == 0 ? where : &times);
+        parts[k] = part_of(&g->pieces[k == 0 ? of->piece : 0], &own);
         if (parts[k] == NULL || !find_lengths(parts[k]->f, k > 0, length)) return false;
     }
     return true;
@@ -67,6 +68,14 @@ static size_t count_ranges(const formula *f)
     size_t n = 0;
     for (int k = 0; k < f->count; ++k) n += term_is_range(&f->steps[k]);
     return n;
+}
+
+/* Counts the constants of a stage: the value of a clock other than T comes first. Lemma. What holds
+ * for each value that a stage's t has, whatever those of other stages are, holds where stages
+ * follow one clock. */
+static size_t count_constants(const place *of, const part *const parts[], size_t k)
+{
+    return count_ranges(parts[k]->f) + !place_follows_main(of, k);
 }
 
 void coq_put_constants(FILE *to, char letter, size_t count)
@@ -115,28 +124,47 @@ static void put_whole(FILE *to, const char *name, size_t stages, int i, size_t c
 size_t coq_put_definitions(FILE *to, const char *name, const place *of, const part *const parts[])
 {
     size_t constants = 0, first = 0;
-    for (size_t k = 0; k <= of->maps; ++k) constants += count_ranges(parts[k]->f);
+    for (size_t k = 0; k <= of->maps; ++k) constants += count_constants(of, parts, k);
     for (size_t k = 0; k <= of->maps; ++k) {
-        const writer w = {to, parts[k]->f, k == 0 ? "uvt" : "xyzt", first};
+        const bool has_clock = !place_follows_main(of, k);
+        const writer w = {to, parts[k]->f, k == 0 ? "uvt" : "xyzt", first + has_clock,
+                          has_clock ? first : SIZE_MAX};
         for (int i = 0; i < 3; ++i) put_stage(&w, name, k, i, constants);
-        first += count_ranges(parts[k]->f);
+        first += count_constants(of, parts, k);
     }
     for (int i = 0; i < 3; ++i) put_whole(to, name, of->maps + 1, i, constants);
     return constants;
 }
 
+static void put_range(FILE *to, double lo, char letter, size_t n, double hi)
+{
+    coq_put_number(to, lo);
+    fprintf(to, " <= %c%zu <= ", letter, n);
+    coq_put_number(to, hi);
+    fputs(" -> ", to);
+}
+
 void coq_put_ranges(FILE *to, char letter, const place *of, const part *const parts[])
 {
     size_t n = 0;
-    for (size_t k = 0; k <= of->maps; ++k)
+    for (size_t k = 0; k <= of->maps; ++k) {
+        const size_t clock = of->of->stages[of->chain->stages[k]].clock;
+        if (!place_follows_main(of, k))
+            put_range(to, of->when->lo[clock], letter, n++, of->when->hi[clock]);
         for (int j = 0; j < parts[k]->f->count; ++j) {
             const step *s = &parts[k]->f->steps[j];
-            if (!term_is_range(s)) continue;
-            coq_put_number(to, s->constant.lo);
-            fprintf(to, " <= %c%zu <= ", letter, n++);
-            coq_put_number(to, s->constant.hi);
-            fputs(" -> ", to);
+            if (term_is_range(s)) put_range(to, s->constant.lo, letter, n++, s->constant.hi);
         }
+    }
+}
+
+void coq_put_bisections(FILE *to, const place *of, const part *const parts[])
+{
+    size_t n = 0;
+    for (size_t k = 0; k <= of->maps; ++k) {
+        if (!place_follows_main(of, k)) fprintf(to, ", i_bisect k%zu", n);
+        n += count_constants(of, parts, k);
+    }
 }
 
 void coq_put_names(FILE *to, const char *name, const place *of)
