@@ -117,8 +117,10 @@ check_suites = \
 # The same, with MPFI as the judge of bounds; the longest first.
 mpfi_suites = \
     tests/fuzz/certificate \
+    tests/fuzz/kernel \
     tests/unit/test_certificate_nets \
     tests/unit/test_certificates \
+    tests/unit/test_kernel \
     tests/unit/test_certificate_round \
     tests/unit/test_certificate_changes \
     tests/unit/test_proof_memory \
@@ -215,6 +217,7 @@ tests_unit_test_checker_SOURCES = tests/unit/test_checker.c \
 tests_unit_test_checker_LDADD = tools/libproof.la $(LDADD)
 tests_unit_test_certificate_nets_CPPFLAGS = $(AM_CPPFLAGS) -DPROOF_DOUBLE
 tests_unit_test_certificate_nets_LDADD = tools/libverify.la $(LDADD)
+tests_unit_test_kernel_LDADD = tools/libverify.la $(LDADD)
 tests_unit_test_certificates_CPPFLAGS = $(AM_CPPFLAGS) -DPROOF_DOUBLE
 tests_unit_test_certificates_LDADD = tools/libverify.la $(LDADD)
 tests_unit_test_certificate_round_CPPFLAGS = $(AM_CPPFLAGS) -DPROOF_DOUBLE
@@ -235,6 +238,7 @@ bats_suites = \
     tests/cli/check_proofs.bats \
     tests/cli/cli.bats \
     tests/cli/certificates.bats \
+    tests/cli/certificates_kernel.bats \
     tests/cli/certificates_parameters.bats \
     tests/cli/clearance.bats \
     tests/cli/completion.bats \
@@ -556,6 +560,7 @@ noinst_HEADERS += \
     tests/support/isolated_bowl.h \
     tests/support/kit_registry.h \
     tests/support/made_certificate.h \
+    tests/support/made_texts.h \
     tests/support/meeting.h \
     tests/support/meeting_nodes.h \
     tests/support/mesh_bytes.h \
@@ -587,6 +592,8 @@ tests_fuzz_cache_SOURCES = tests/fuzz/cache.c tests/fuzz/replay.c tests/fuzz/fuz
 tests_fuzz_certificate_SOURCES = tests/fuzz/certificate.c tests/fuzz/replay.c
 tests_fuzz_certificate_CPPFLAGS = $(AM_CPPFLAGS) -DPROOF_DOUBLE
 tests_fuzz_certificate_LDADD = tools/libverify.la $(LDADD)
+tests_fuzz_kernel_SOURCES = tests/fuzz/kernel.c tests/fuzz/replay.c
+tests_fuzz_kernel_LDADD = tools/libverify.la $(LDADD)
 tests_fuzz_csv_SOURCES = tests/fuzz/csv.c tests/fuzz/replay.c
 tests_fuzz_csv_LDADD = plugins/libcommon.la $(LDADD)
 tests_fuzz_json_SOURCES = tests/fuzz/json.c tests/fuzz/replay.c tests/support/same_json.h
@@ -609,7 +616,7 @@ tests_fuzz_scene_SOURCES = tests/fuzz/scene.c tests/fuzz/scene_judge.c tests/fuz
 .PHONY: fuzz-libraries fuzz-plugins
 fuzz_verify =
 if HAVE_MPFI
-fuzz_verify += tools/libverify.la
+fuzz_verify += tools/libverify.la tools/libkernel.la
 endif
 fuzz-libraries: core/libcore.la tools/libproof.la $(fuzz_verify) plugins/libexpression.la \
     plugins/libcommon.la \
@@ -715,6 +722,15 @@ EXTRA_DIST += \
     tests/fuzz/json.d/strings \
     tests/fuzz/json.d/twice \
     tests/fuzz/json.dict \
+    tests/fuzz/kernel.d/balls \
+    tests/fuzz/kernel.d/bowl \
+    tests/fuzz/kernel.d/bowl_elaborated \
+    tests/fuzz/kernel.d/huge \
+    tests/fuzz/kernel.d/many_splits \
+    tests/fuzz/kernel.d/parts \
+    tests/fuzz/kernel.d/roofs \
+    tests/fuzz/kernel.d/roofs_elaborated \
+    tests/fuzz/kernel.dict \
     tests/fuzz/mesh.d/empty \
     tests/fuzz/mesh.d/glb_plain \
     tests/fuzz/mesh.d/gltf_cycle \

@@ -273,12 +273,23 @@ tools_impinge_LDADD = $(tools_libs)
 # formulas and jets.
 dist_man_MANS =
 if HAVE_MPFI
-noinst_LTLIBRARIES += tools/libverify.la
-bin_PROGRAMS += tools/impinge-verify
-dist_man_MANS += tools/impinge-verify.1
+noinst_LTLIBRARIES += tools/libverify.la tools/libkernel.la
+bin_PROGRAMS += tools/impinge-verify tools/impinge-verify-kernel
+dist_man_MANS += tools/impinge-verify.1 tools/impinge-verify-kernel.1
 else
-EXTRA_DIST += tools/impinge-verify.1
+EXTRA_DIST += tools/impinge-verify.1 tools/impinge-verify-kernel.1
 endif
+# The kernel of the verifier: at most 1,500 lines (tests/cli/certificates_kernel.bats), which use nothing else of
+# Impinge.
+tools_impinge_verify_kernel_SOURCES = tools/kernel/main.c
+tools_impinge_verify_kernel_LDADD = tools/libkernel.la
+tools_libkernel_la_SOURCES = \
+    tools/kernel/claim.c tools/kernel/claim.h \
+    tools/kernel/expression.c tools/kernel/expression.h \
+    tools/kernel/leaf.c \
+    tools/kernel/slope.c tools/kernel/slope.h \
+    tools/kernel/trees.c tools/kernel/trees.h
+tools_libkernel_la_LIBADD = $(MPFI_LIBS) -lm
 tools_impinge_verify_SOURCES = \
     core/common/search_path.c core/common/search_path.h \
     tools/cli/build_tree.c tools/cli/build_tree.h \
@@ -309,9 +320,11 @@ tools_libverify_la_SOURCES = \
     tools/proof/reader_names.c \
     tools/proof/reader_part.c \
     tools/proof/steps.h \
+    tools/verify/aim.c tools/verify/aim.h \
     tools/verify/apart.c tools/verify/apart.h \
     tools/verify/apart_axis.c tools/verify/apart_internal.h \
     tools/verify/apart_cell.c \
+    tools/verify/elaborate.c tools/verify/elaborate.h \
     tools/verify/enclose.c tools/verify/enclose.h \
     tools/verify/input.c tools/verify/input.h \
     tools/verify/look.c tools/verify/look.h \
@@ -329,7 +342,7 @@ tools_libverify_la_SOURCES = \
     tools/verify/walk.c tools/verify/walk.h \
     tools/verify/words.c tools/verify/words.h
 tools_libverify_la_CPPFLAGS = $(AM_CPPFLAGS) -DPROOF_DOUBLE
-tools_libverify_la_LIBADD = $(MPFI_LIBS) -lm
+tools_libverify_la_LIBADD = tools/libkernel.la $(MPFI_LIBS) -lm
 
 # The command for `bench --tune`, whose tuning constants are variables: built by name only. The library
 # is linked in as one object, whose internal symbols are local. Positive variables stand for

@@ -137,36 +137,22 @@ START_TEST(every_kind_of_leaf_proves_what_is_true_and_refuses_what_is_false)
         {"halves of time", 5, {4, 0x80, 0, 7, 7}},
         {"a time at the beginning", 5, {4, 0, 0, 7, 7}},
     };
-    static const struct {
-        const char *from, *to;
-        bool holds;
-    } claims[] = {
-        {"apart 0x1p-4", "apart 0x1p-4", true},    {"apart 0x1p-4", "apart 0.19", true},
-        {"apart 0x1p-4", "apart 0.251", false},    {"to 0.5\n", "to 0.75\n", false},
-        {"x; y; z - t", "x; y; z - 2*t", false},   {"h = 1;", "h = 0.8;", false},
-        {"u; v; h", "u; v; 0.5*h", false},         {"0.1*(u^2", "0.4*(u^2", false},
-        {"within 0.6 at", "within 0.4 at", false}, {"within 0.6", "within 0.4999", false}};
     for (size_t k = 0; k < sizeof kinds / sizeof *kinds; ++k)
-        for (size_t i = 0; i < sizeof claims / sizeof *claims; ++i) {
+        for (size_t i = 0; i < BOWL_CLAIMS; ++i) {
             uint8_t tree[TREE_MAX] = {0, 1, 0};
             memcpy(tree + 3, kinds[k].tree, kinds[k].size);
             certificate c = made(bowl, tree, kinds[k].size + 3);
-            replace(&c, claims[i].from, claims[i].to);
+            replace(&c, bowl_claims[i].from, bowl_claims[i].to);
             statement s;
             char fault[1400];
             bool assumes;
             const bool good = verify(&c, EFFORT, &s, fault, &assumes);
-            ck_assert_msg(good == claims[i].holds, "%s, %s: %s", kinds[k].what, claims[i].to,
-                          good ? "accepted" : fault);
+            ck_assert_msg(good == bowl_claims[i].holds, "%s, %s: %s", kinds[k].what,
+                          bowl_claims[i].to, good ? "accepted" : fault);
             statement_free(&s);
         }
 }
 END_TEST
-
-typedef struct claim_change {
-    const char *from, *to;
-    bool holds;
-} claim_change;
 
 static void check_claim(const char *what, const uint8_t *tree, size_t size, const claim_change *by)
 {
@@ -197,34 +183,13 @@ START_TEST(claims_about_all_values_of_parameters_hold_only_if_they_are_true)
         {"q is T, a part left out", 10, {1, 4, 0x80, 0, 8, 0, 0x80, 0, 7, 7}},
         {"w is T", 7, {2, 8, 1, 0x80, 0, 7, 7}},
     };
-    static const claim_change claims[] = {
-        {"apart 2", "apart 2", true},
-        {"apart 2", "apart 2.2", false},
-        {"parameter 0.9", "parameter 0.95", false}, /* the points are of 0.9 */
-        {"parameter 0.9", "parameter 0.1", false},
-        {"1.5 q", "6.2 q", false},
-        {"parameter 0 ", "parameter -0.5 ", false},
-        {"0.5 w", "1.5 w", true},
-        {"rotate clock 1", "rotate clock 2", false},
-        {"rotate clock 1", "rotate clock 0", false},
-        {"rotate clock 1", "rotate", false},
-        {"rotate clock 1", "rotate clock 3", false},
-        {"rotate clock 1", "rotate clock", false},
-        {"slide clock 2", "slide clock 1", false}, /* the points are farther apart */
-        {"x + t", "x - t", false},
-        {"within 3", "within 2", false},
-        {"at 0.5 0.9 0", "at 0.5 0.9", false},
-        {"at 0.5 0.9 0", "at 0.5 0.9 0 0", false},
-        {"at 0.5 0.9 0", "at 0.5 0.8 0", false},
-        {"certificate 2", "certificate 1", false},
-        {" w\n", " q\n", false},
-        {"parameter 0 0.5 w\n", "", false}};
     for (size_t k = 0; k < sizeof kinds / sizeof *kinds; ++k)
-        for (size_t i = 0; i < sizeof claims / sizeof *claims; ++i) {
+        for (size_t i = 0; i < ARM_CLAIMS; ++i) {
             uint8_t tree[3 + TREE_MAX] = {0, 1, 0};
             memcpy(tree + 3, kinds[k].tree, kinds[k].size);
             const bool is_whole = strcmp(kinds[k].what, "q is T, a part left out") != 0;
-            const claim_change by = {claims[i].from, claims[i].to, claims[i].holds && is_whole};
+            const claim_change by = {arm_claims[i].from, arm_claims[i].to,
+                                     arm_claims[i].holds && is_whole};
             check_claim(kinds[k].what, tree, 3 + kinds[k].size, &by);
         }
 }

@@ -8,13 +8,14 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "tools/verify/elaborate.h"
 #include "tools/verify/receipt.h"
 #include "tools/verify/run.h"
 
 /* impinge-verify: proves a certificate again (core/CERTIFICATE.md). It loads no shared object and
  * trusts nothing in the file. */
 
-enum { GOALS_MAX = 100000 };
+enum { GOALS_MAX = 100000, EFFORT = 20000, EFFORT_ELABORATE = 1000000 };
 
 /* --- The answer ------------------------------------------------------------------------------- */
 
@@ -77,8 +78,10 @@ static int usage(FILE *to)
           "With SCENE, tells whether it is of this scene file, this version and these plugins.\n\n"
           "  --text        print what is claimed and the tree, a line for each entry\n"
           "  --threads N   processes that prove at once (1)\n"
-          "  --effort N    tests that one leaf may take (20000)\n"
+          "  --effort N    tests that one leaf may take (20000; 1000000 with --elaborate)\n"
           "  --tighten OUT write a shorter certificate of the same claim\n"
+          "  --elaborate OUT\n"
+          "                write a longer one, which impinge-verify-kernel proves\n"
           "  --coq OUT     write leaves as goals for Coq's tactic interval\n"
           "  --goals N     so many (20), drawn at random\n"
           "  --seed N      with this seed (1)\n"
@@ -101,13 +104,19 @@ static bool read_count(const char *text, unsigned long most, unsigned long *n)
 /* Returns an exit status, or -1: go on. */
 static int read_arguments(int argc, char **argv, request *asked)
 {
-    static const struct option options[] = {
-        {"text", no_argument, NULL, 't'},         {"threads", required_argument, NULL, 'j'},
-        {"effort", required_argument, NULL, 'e'}, {"tighten", required_argument, NULL, 'w'},
-        {"coq", required_argument, NULL, 'c'},    {"goals", required_argument, NULL, 'g'},
-        {"seed", required_argument, NULL, 's'},   {"plugin-path", required_argument, NULL, 'p'},
-        {"quiet", no_argument, NULL, 'q'},        {"help", no_argument, NULL, 'h'},
-        {"version", no_argument, NULL, 'v'},      {NULL, 0, NULL, 0}};
+    static const struct option options[] = {{"text", no_argument, NULL, 't'},
+                                            {"threads", required_argument, NULL, 'j'},
+                                            {"effort", required_argument, NULL, 'e'},
+                                            {"tighten", required_argument, NULL, 'w'},
+                                            {"elaborate", required_argument, NULL, 'k'},
+                                            {"coq", required_argument, NULL, 'c'},
+                                            {"goals", required_argument, NULL, 'g'},
+                                            {"seed", required_argument, NULL, 's'},
+                                            {"plugin-path", required_argument, NULL, 'p'},
+                                            {"quiet", no_argument, NULL, 'q'},
+                                            {"help", no_argument, NULL, 'h'},
+                                            {"version", no_argument, NULL, 'v'},
+                                            {NULL, 0, NULL, 0}};
     unsigned long n;
     for (int c; (c = getopt_long(argc, argv, "", options, NULL)) != -1;) {
         if (c == 'h') return usage(stdout);
@@ -116,9 +125,10 @@ static int read_arguments(int argc, char **argv, request *asked)
             asked->text = true;
         else if (c == 'q')
             asked->quiet = true;
-        else if ((c == 'w' || c == 'c') && asked->output == NULL) {
+        else if ((c == 'w' || c == 'c' || c == 'k') && asked->output == NULL) {
             asked->output = optarg;
             asked->is_coq = c == 'c';
+            asked->is_elaborate = c == 'k';
         } else if (c == 'g' && read_count(optarg, GOALS_MAX, &n))
             asked->goals = n;
         else if (c == 's' && read_count(optarg, ULONG_MAX, &n))
@@ -189,17 +199,38 @@ static int answer(const request *asked)
     return status == HOLDS && asked->rewrite != NULL ? finish(asked, &all) : status;
 }
 
+/* Writes what the kernel proves, by its own tests; the certificate is not proved otherwise. */
+static int write_for_kernel(const request *asked, rewrite *to)
+{
+    elaborated found;
+    FILE *from = strcmp(asked->path, "-") == 0 ? stdin : fopen(asked->path, "rb");
+    if (from == NULL) {
+        fprintf(stderr, "impinge-verify: %s: %s\n", asked->path, strerror(errno));
+        return USAGE;
+    }
+    const bool good = elaborate(from, to->draft, asked->effort, &found);
+    if (from != stdin) fclose(from);
+    if (!good)
+        printf("not elaborated: at byte %llu: %s\n", (unsigned long long)found.at, found.why);
+    if (!rewrite_finish(to, good)) return USAGE;
+    if (good && !asked->quiet)
+        printf("elaborated: %llu leaves to %llu\n", (unsigned long long)found.leaves_before,
+               (unsigned long long)found.leaves);
+    return good ? HOLDS : REFUSED;
+}
+
 int main(int argc, char **argv)
 {
-    request asked = {.threads = 1, .effort = 20000, .goals = 20, .seed = 1};
+    request asked = {.threads = 1, .goals = 20, .seed = 1};
     const int read = read_arguments(argc, argv, &asked);
     if (read >= 0) return read;
+    if (asked.effort == 0) asked.effort = asked.is_elaborate ? EFFORT_ELABORATE : EFFORT;
     rewrite written = {.is_coq = asked.is_coq, .goals = asked.goals, .seed = asked.seed};
     if (asked.output != NULL) {
         if (!rewrite_begin(&written, asked.output, asked.path)) return USAGE;
         asked.rewrite = &written;
     }
-    const int status = answer(&asked);
+    const int status = asked.is_elaborate ? write_for_kernel(&asked, &written) : answer(&asked);
     rewrite_finish(&written, false);
     return status;
 }

@@ -11,8 +11,8 @@ enum { THREADS_MAX = 256 };
 
 typedef struct request {
     const char *path, *scene, *plugin_path;
-    const char *output; /* of --tighten or --coq; NULL: none */
-    bool is_coq;
+    const char *output; /* of --tighten, --coq or --elaborate; NULL: none */
+    bool is_coq, is_elaborate;
     unsigned long goals, seed;
     unsigned threads;
     unsigned long effort;

@@ -1,0 +1,239 @@
+/* SPDX-FileCopyrightText: The Impinge authors
+ * SPDX-License-Identifier: Apache-2.0 */
+#include <config.h>
+
+#include "tools/kernel/slope.h"
+
+#include <float.h>
+#include <mpfi.h>
+
+range range_both(range x, range y) { return (range){fmax(x.lo, y.lo), fmin(x.hi, y.hi)}; }
+range range_hull(range x, range y) { return (range){fmin(x.lo, y.lo), fmax(x.hi, y.hi)}; }
+range range_greatest(range x, range y) { return (range){fmax(x.lo, y.lo), fmax(x.hi, y.hi)}; }
+double range_middle(range x) { return fmin(fmax(0.5 * x.lo + 0.5 * x.hi, x.lo), x.hi); }
+
+/* Every operation goes through MPFI with as many bits as a double has, so that doubles are
+ * converted exactly. What MPFI cannot say is everything. */
+
+static range taken(mpfi_srcptr x)
+{
+    if (mpfi_nan_p(x)) return RANGE_ALL;
+    return (range){mpfr_get_d(&x->left, MPFR_RNDD), mpfr_get_d(&x->right, MPFR_RNDU)};
+}
+
+static void give(mpfi_ptr to, range x)
+{
+    mpfr_set_d(&to->left, x.lo, MPFR_RNDD);
+    mpfr_set_d(&to->right, x.hi, MPFR_RNDU);
+}
+
+/* Numbers of MPFI: two operands, then the result. */
+static mpfi_t *numbers(void)
+{
+    static mpfi_t all[3];
+    for (int k = 0; k < 3 && all[k]->left._mpfr_d == NULL; ++k) mpfi_init2(all[k], DBL_MANT_DIG);
+    return all;
+}
+
+typedef int unary(mpfi_ptr, mpfi_srcptr);
+typedef int binary(mpfi_ptr, mpfi_srcptr, mpfi_srcptr);
+
+static range by(unary *f, range x)
+{
+    mpfi_t *n = numbers();
+    give(n[0], x);
+    f(n[2], n[0]);
+    return taken(n[2]);
+}
+
+static range by_both(binary *f, range x, range y)
+{
+    mpfi_t *n = numbers();
+    give(n[0], x);
+    give(n[1], y);
+    f(n[2], n[0], n[1]);
+    return taken(n[2]);
+}
+
+range range_add(range x, range y) { return by_both(mpfi_add, x, y); }
+range range_sub(range x, range y) { return by_both(mpfi_sub, x, y); }
+range range_hypot(range x, range y) { return by_both(mpfi_hypot, x, y); }
+range range_mul(range x, range y) { return by_both(mpfi_mul, x, y); }
+range range_div(range x, range y) { return range_has_0(y) ? RANGE_ALL : by_both(mpfi_div, x, y); }
+
+range range_pi(void)
+{
+    mpfi_t *n = numbers();
+    mpfi_const_pi(n[2]);
+    return taken(n[2]);
+}
+
+/* Sines of wide or far ranges are anything from -1 to 1. */
+static range wave_of(unary *f, range x)
+{
+    if (!(x.hi - x.lo < 6) || !(x.lo > -0x1p40) || !(x.hi < 0x1p40)) return (range){-1, 1};
+    return by(f, x);
+}
+
+static range range_sin(range x) { return wave_of(mpfi_sin, x); }
+static range range_cos(range x) { return wave_of(mpfi_cos, x); }
+
+/* Lemma. x^y = exp(y log x), and 0^y is 0 and x^y grows with x if y > 0. */
+range range_power(range x, range y)
+{
+    x = range_both(x, (range){0, INFINITY});
+    if (!(x.lo <= x.hi)) return RANGE_ALL;
+    if (x.lo == 0 && !(y.lo > 0)) return (range){0, INFINITY};
+    const double most = x.hi == 0 ? 0 : by(mpfi_exp, range_mul(y, by(mpfi_log, range_of(x.hi)))).hi;
+    return x.lo == 0 ? (range){0, most} : by(mpfi_exp, range_mul(y, by(mpfi_log, x)));
+}
+
+slope slope_fixed(range value) { return (slope){.v = value, .c = value}; }
+
+slope slope_variable(int j, range where, const range *offset)
+{
+    slope x = {.on = 1u << j, .offset = offset, .v = where, .c = range_of(range_middle(where))};
+    x.s[j] = range_of(1);
+    return x;
+}
+
+/* Reduces the values to those that the slopes allow. */
+static void narrow(slope *x)
+{
+    range sum = x->c;
+    for (int j = 0; j < SLOPE_VARIABLES; ++j)
+        if (slope_has(x, j)) sum = range_add(sum, range_mul(x->s[j], x->offset[j]));
+    sum = range_both(sum, x->v);
+    if (sum.lo <= sum.hi) x->v = sum;
+}
+
+static range times(range g, range s) { return range_is(g, 1) ? s : range_mul(g, s); }
+
+/* Lemma. If g(x, y) - g(cx, cy) = gx (x - cx) + gy (y - cy) for numbers in the ranges gx and gy,
+ * its slopes are gx s_x + gy s_y. */
+static slope combined(const slope *x, const slope *y, range v, range c, range gx, range gy)
+{
+    slope r = {.on = x->on | y->on,
+               .is_undefined = x->is_undefined || y->is_undefined,
+               .offset = x->offset != NULL ? x->offset : y->offset,
+               .v = v,
+               .c = c};
+    for (int j = 0; j < SLOPE_VARIABLES; ++j) {
+        if (slope_has(x, j)) r.s[j] = times(gx, x->s[j]);
+        if (!slope_has(y, j)) continue;
+        const range by = times(gy, y->s[j]);
+        r.s[j] = slope_has(x, j) ? range_add(r.s[j], by) : by;
+    }
+    narrow(&r);
+    return r;
+}
+
+static const range zero = {0, 0}, one = {1, 1};
+
+slope slope_sum(const slope *x, const slope *y)
+{
+    return combined(x, y, range_add(x->v, y->v), range_add(x->c, y->c), one, one);
+}
+
+slope slope_less(const slope *x, const slope *y)
+{
+    return combined(x, y, range_sub(x->v, y->v), range_sub(x->c, y->c), one, range_of(-1));
+}
+
+/* x y - cx cy = y (x - cx) + cx (y - cy); 0 times a function is 0 wherever that has a value. */
+slope slope_product(const slope *x, const slope *y)
+{
+    slope r = combined(x, y, range_mul(x->v, y->v), range_mul(x->c, y->c), y->v, x->c);
+    if ((x->on != 0 || !range_is(x->v, 0)) && (y->on != 0 || !range_is(y->v, 0))) return r;
+    r.on = 0, r.v = r.c = zero;
+    return r;
+}
+
+/* x / y - cx / cy = (x - cx) / y - (cx / cy) (y - cy) / y */
+slope slope_quotient(const slope *x, const slope *y)
+{
+    const range c = range_div(x->c, y->c);
+    slope r = combined(x, y, range_div(x->v, y->v), c, range_div(one, y->v),
+                       range_neg(range_div(c, y->v)));
+    r.is_undefined = r.is_undefined || range_has_0(y->v);
+    return r;
+}
+
+/* The slopes are t s_x + (1 - t) s_y, 0 <= t <= 1, where either may be the greater one. */
+slope slope_greatest(const slope *x, const slope *y)
+{
+    const bool is_x = x->v.lo > y->v.hi, is_y = y->v.lo > x->v.hi;
+    const range part = {0, 1}, v = range_greatest(x->v, y->v), c = range_greatest(x->c, y->c);
+    return combined(x, y, v, c, is_x ? one : is_y ? zero : part, is_y ? one : is_x ? zero : part);
+}
+
+/* A function with values v and c, by its derivative over x->v (mean value theorem). */
+static slope composed(const slope *x, range v, range c, range derivative, bool is_total)
+{
+    const slope nothing = slope_fixed(zero);
+    slope r = combined(x, &nothing, v, c, derivative, zero);
+    r.is_undefined = r.is_undefined || !is_total;
+    return r;
+}
+
+slope slope_abs(const slope *x)
+{
+    const slope zeros = slope_fixed(zero), minus = slope_less(&zeros, x);
+    slope r = slope_greatest(x, &minus);
+    if (r.v.lo < 0) r.v.lo = 0;
+    if (x->v.lo < 0 && x->v.hi > 0)
+        for (int j = 0; j < SLOPE_VARIABLES; ++j)
+            if (slope_has(x, j)) r.s[j] = range_mul((range){-1, 1}, x->s[j]);
+    return r;
+}
+
+/* Sines and cosines, whose slopes are in f'(c) + f''(x) (x - c) / 2, too (Taylor's theorem). */
+static slope wave(const slope *x, range v, range c, range first, range first_c)
+{
+    const range half = range_mul(range_sub(x->v, x->c), range_of(0.5));
+    const range second = range_sub(first_c, range_mul(v, half)), both = range_both(first, second);
+    return composed(x, v, c, both.lo <= both.hi ? both : first, true);
+}
+
+slope slope_sin(const slope *x)
+{
+    return wave(x, range_sin(x->v), range_sin(x->c), range_cos(x->v), range_cos(x->c));
+}
+
+slope slope_cos(const slope *x)
+{
+    return wave(x, range_cos(x->v), range_cos(x->c), range_neg(range_sin(x->v)),
+                range_neg(range_sin(x->c)));
+}
+
+static slope whole_power(const slope *x, int k)
+{
+    const slope unit = slope_fixed(one);
+    if (k == 0) return composed(x, one, one, zero, true);
+    if (k == 1) return *x;
+    const slope half = whole_power(x, k < 0 ? -k : k / 2);
+    if (k < 0) return slope_quotient(&unit, &half);
+    slope r = slope_product(&half, &half);
+    if (k % 2 != 0) return slope_product(&r, x);
+    if (r.v.lo < 0) r.v.lo = 0;
+    return r;
+}
+
+/* x^k for x >= 0. A number below 0 by at most 2^-40 counts as 0, unless all of x is below: rounding
+ * takes 1 - u^2 there (core/PROOF.md, section 11). Powers up to 1 have kinks there. */
+static slope real_power(const slope *x, range k)
+{
+    const bool is_total = x->v.lo > 0 || (k.lo > 0 && x->v.lo >= -0x1p-40 && x->v.hi >= 0);
+    const range less = range_power(x->v, range_sub(k, one));
+    const range derivative = x->v.lo < 0 && !(k.lo > 1) ? RANGE_ALL : range_mul(k, less);
+    return composed(x, range_power(x->v, k), range_power(x->c, k), derivative, is_total);
+}
+
+slope slope_raised(const slope *x, const slope *y)
+{
+    const double k = y->v.lo;
+    const bool is_whole = range_is(y->v, k) && floor(k) == k && fabs(k) <= 64;
+    slope r = is_whole ? whole_power(x, (int)k) : real_power(x, y->v);
+    r.is_undefined = r.is_undefined || y->is_undefined || y->on != 0;
+    return r;
+}

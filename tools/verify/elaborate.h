@@ -1,0 +1,26 @@
+/* SPDX-FileCopyrightText: The Impinge authors
+ * SPDX-License-Identifier: Apache-2.0 */
+#ifndef TOOLS_VERIFY_ELABORATE_H
+#define TOOLS_VERIFY_ELABORATE_H
+
+#include <stdbool.h>
+#include <stdint.h>
+#include <stdio.h>
+
+/* Certificates for the kernel
+ * ===========================
+ * tools/kernel proves a leaf by the axis that it names, and divides nothing. This writes a
+ * certificate of the same claim whose leaves it proves: where its test of a leaf fails, the cell is
+ * divided and given axes until it does not. */
+
+typedef struct elaborated {
+    uint64_t leaves_before, leaves, tests; /* tests: calls of the kernel's */
+    uint64_t at;                           /* byte of the certificate that is refused, and why */
+    char why[1000];
+} elaborated;
+
+/* Reads a certificate and writes the other one; `effort`: cells that a leaf may become. False:
+ * found->why tells. */
+bool elaborate(FILE *from, FILE *to, unsigned long effort, elaborated *found);
+
+#endif
