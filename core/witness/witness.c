@@ -144,6 +144,54 @@ imp_code witness_seek(const node *const nodes[2], double t, double gamma, witnes
     return search_run(nodes, t, gamma, true, found, error);
 }
 
+/* --- Poles ------------------------------------------------------------------------------------ */
+
+/* At a pole all u are one point, from which only v descends, and only within the domain: with a
+ * wrong u the search ends there. */
+
+/* Two points are one pole if they are nearer than this part of the gap. */
+#define SAME_POLE 0x1p-20
+
+/* A point is at an edge of the domain if it is nearer than this part of the domain. */
+#define AT_EDGE 0x1p-30
+
+/* Moves the state to the other end of the line of v through the pole at which a side is: u by half
+ * of its range. *is_pole false: the side is at none. */
+static imp_code turn_at_pole(search *g, int side, const search_state *s, search_state *turned,
+                             bool *is_pole, imp_error *error)
+{
+    const double *lo = g->whole_lo[side], *hi = g->whole_hi[side], *p = s->p[side];
+    const imp_region *r = &g->nodes[side]->region;
+    double y[NEWTON_UNKNOWNS];
+    *is_pole = false;
+    const double half = 0.5 * (hi[0] - lo[0]), edge = fmin(p[1] - lo[1], hi[1] - p[1]);
+    if (!(edge <= AT_EDGE * (hi[1] - lo[1])) || !(r->d[0] > 0 && r->d[1] > 0)) return IMP_SUCCESS;
+    memcpy(y, s->y, sizeof y);
+    y[2 * side] += (p[0] + half <= hi[0] ? half : -half) / r->d[0];
+    const imp_code code = state_at(g, y, turned, error);
+    if (code != IMP_SUCCESS) return code;
+    *is_pole = vec3_norm(vec3_sub(turned->x[side], s->x[side])) <= SAME_POLE * s->gap;
+    for (int j = 0; j < 2 && *is_pole; ++j) {
+        g->y.lo[2 * side + j] = (lo[j] - r->c[j]) / r->d[j];
+        g->y.hi[2 * side + j] = (hi[j] - r->c[j]) / r->d[j];
+    }
+    return IMP_SUCCESS;
+}
+
+/* Descends from there, too, and keeps what is nearer. */
+static imp_code descend_beyond_poles(search *g, search_state *s, imp_error *error)
+{
+    for (int side = 0; side < 2; ++side) {
+        search_state turned;
+        bool is_pole;
+        imp_code code = turn_at_pole(g, side, s, &turned, &is_pole, error);
+        if (code == IMP_SUCCESS && is_pole) code = descend(g, turned.gap, &turned, error);
+        if (code != IMP_SUCCESS) return code;
+        if (is_pole && turned.gap < s->gap) *s = turned;
+    }
+    return IMP_SUCCESS;
+}
+
 imp_code witness_polish(const node *const nodes[2], double t, witness *found, imp_error *error)
 {
     search g = {.nodes = nodes, .t = t, .is_local = true};
@@ -157,6 +205,7 @@ imp_code witness_polish(const node *const nodes[2], double t, witness *found, im
     }
     imp_code code = state_at(&g, y, &s, error);
     if (code == IMP_SUCCESS) code = descend(&g, s.gap, &s, error);
+    if (code == IMP_SUCCESS) code = descend_beyond_poles(&g, &s, error);
     return code == IMP_SUCCESS ? evaluate_gap(&g, &s, found, error) : code;
 }
 

@@ -26,7 +26,8 @@ imp_code witness_seek(const node *const nodes[2], double t, double gamma, witnes
                       imp_error *error);
 
 /* Seeks points nearer to each other than those of *found, a witness at time t of the two nodes,
- * with the derivatives of models around the points, which are exact but for rounding. */
+ * with the derivatives of models around the points, which are exact but for rounding; at a pole,
+ * where only v leads away, from the opposite u, too. */
 imp_code witness_polish(const node *const nodes[2], double t, witness *found, imp_error *error);
 
 /* Evaluates points at n parameters (u, v, t), n <= WITNESS_POINTS, and bounds their distances from

@@ -50,6 +50,15 @@ START_TEST(a_ball_that_passes_is_followed_to_its_nearest_moment)
 }
 END_TEST
 
+/* From the middle of either surface v descends to the pole, along a u that is opposite. */
+START_TEST(a_pole_is_crossed)
+{
+    const char *const points[] = {"point position=0.1,0,2", "point position=0.1,0,-2"};
+    for (int k = 0; k < 2; ++k)
+        find_at_once("ellipsoid radii=1,1.2,1.1", points[k], 0.902761527834539, 4);
+}
+END_TEST
+
 SUITE_MAIN("time_descent", points_near_a_floor_are_polished, a_spinning_ring_is_nearest_at_its_rim,
            a_corner_that_passes_is_followed_to_its_nearest_moment,
-           a_ball_that_passes_is_followed_to_its_nearest_moment)
+           a_ball_that_passes_is_followed_to_its_nearest_moment, a_pole_is_crossed)
