@@ -641,11 +641,13 @@ EXTRA_DIST += \
     tests/fuzz/cache.dict \
     tests/fuzz/certificate.d/balls \
     tests/fuzz/certificate.d/bowl \
+    tests/fuzz/certificate.d/door \
     tests/fuzz/certificate.d/huge \
     tests/fuzz/certificate.d/many_splits \
     tests/fuzz/certificate.d/parts \
     tests/fuzz/certificate.d/roofs \
     tests/fuzz/certificate.d/unsaid \
+    tests/fuzz/certificate.d/values \
     tests/fuzz/certificate.dict \
     tests/fuzz/csv.d/blanks \
     tests/fuzz/csv.d/by_name \
