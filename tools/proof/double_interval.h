@@ -10,13 +10,17 @@
 
 #include <float.h>
 
+#if defined(__FAST_MATH__) || (defined(__FLT_EVAL_METHOD__) && __FLT_EVAL_METHOD__ != 0)
+#error "the verifier's intervals need doubles as IEEE 754 rounds them: no -ffast-math, no x87"
+#endif
+
 #include "tools/proof/ld_ends.h"
 
 /* The operations of the verifier's intervals
  * ==========================================
  * ld_interval.h, which includes this, in doubles, which are rounded to nearest (IEEE 754);
- * tools/verify/mpfi_functions.c has the functions. tests/unit/test_certificates holds each result
- * against that of MPFI.
+ * tools/verify/mpfi_functions.c has the functions. tests/unit/test_certificate_changes holds each
+ * result against that of MPFI.
  *
  * Lemma. Let x be the double nearest to z. The double below x is no greater than z. It is at most
  * DBL_EPSILON |x| below x, or 2^-1074 if x is subnormal, so that x - (DBL_EPSILON |x| + PROOF_TINY)
