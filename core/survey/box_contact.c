@@ -41,7 +41,7 @@ static void note_contact(imp_survey *s, const survey_box *box, const imp_result 
     if (!(t < s->best.t)) return;
     s->best.t = t;
     s->best.contact = *found;
-    box_keep_values(s, box, &s->best.contact.t);
+    box_keep_values(s, &s->pairs.at[box->pair], s->box.middle, &s->best.contact.t);
     box_name_side(&s->pairs.at[box->pair], &s->best.contact.a, &s->best.contact.b);
     if (s->question.how.any) s->reason = IMP_REASON_NONE;
 }
@@ -77,30 +77,6 @@ static void record_later(imp_survey *s, const survey_box *box)
     survey_record_box(s, box, box->key, s->question.options.t_end, IMP_VERDICT_UNDECIDED, 0);
 }
 
-/* A query with room takes no more pairs than this, then its box is halved: where room nearly fills
- * the gap, pairs become small before they are excluded, and halves take a tenth of them. The links
- * of real arms take the fewest pairs at 500 to 2000; at 4000 they take twice as many. */
-enum { ROOMY_PAIRS_MOST = 1000 };
-
-/* Runs the query with room for the shift. Unless a contact must be one of the scene (is_fine), the
- * number of pairs is limited, and pairs are also excluded by the directions in which the values
- * move the bodies (pair_spread.h). */
-static imp_code run_box(imp_survey *s, const survey_box *box, imp_scene *scene,
-                        const box_bounds *bounds, const double gamma[2], bool is_fine,
-                        imp_result *found, imp_error *error)
-{
-    const query_times times = box_times(s, box);
-    query_spread spread;
-    if (is_fine || box_is_unmoved(&s->pairs.at[box->pair]))
-        return box_run_contact(s, box, scene, times, gamma, 0, NULL, found, error);
-    imp_code code = survey_spread_make(s, box, bounds, &spread, error);
-    if (code == IMP_SUCCESS)
-        code = box_run_contact(s, box, scene, times, gamma, ROOMY_PAIRS_MOST,
-                               spread.is_known ? &spread : NULL, found, error);
-    survey_spread_clear(&spread);
-    return code;
-}
-
 /* Runs the query with room for the shift. If its contact is too coarse to be one of the scene, runs
  * the query without that room. is_fine: a contact at gamma is one of the scene in spite of the
  * shift (survey_internal.h). Else any gamma above gamma_clear + shift is sound, since a contact
@@ -118,8 +94,12 @@ static imp_code ask_queries(imp_survey *s, survey_box *box, imp_scene *scene,
     const double share = box->share;
     const bool is_limited = !is_fine && !box_is_unmoved(&s->pairs.at[box->pair]) &&
                             box_limits_first(s, ROOMY_PAIRS_MOST);
+    const double exact[2] = {s->question.gamma, s->question.gamma_clear};
     imp_result found;
-    imp_code code = run_box(s, box, scene, bounds, coarse, is_fine, &found, error);
+    imp_code code =
+        is_fine || box_is_unmoved(&s->pairs.at[box->pair])
+            ? box_run_contact(s, box, scene, box_times(s, box), coarse, 0, NULL, &found, error)
+            : box_run_roomy(s, box, scene, bounds, box_times(s, box), coarse, exact, &found, error);
     if (code != IMP_SUCCESS) return code;
     survey_proof_note(s, found.verdict == IMP_VERDICT_CLEAR ? INFINITY : found.t_lower, 0);
     prove_until(s, box, found.t_lower, found.verdict == IMP_VERDICT_CLEAR);

@@ -2,7 +2,13 @@
  * SPDX-License-Identifier: Apache-2.0 */
 #include <config.h>
 
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
 #include "core/base/rounding.h"
+#include "core/base/status.h"
+#include "core/scene/posed_scene.h"
 #include "core/survey/survey_proof.h"
 
 double survey_distance_enough(const imp_survey *s)
@@ -14,13 +20,15 @@ double survey_distance_enough(const imp_survey *s)
     return upper > required && kept > narrow && kept <= upper ? kept : narrow;
 }
 
-static void note_nearest(imp_survey *s, const survey_box *box, const imp_clearance *found)
+static bool note_nearest(imp_survey *s, const survey_pair *pair, const double *values,
+                         const imp_clearance *found)
 {
-    if (!found->has_witness || !(found->upper < s->best.distance)) return;
+    if (!found->has_witness || !(found->upper < s->best.distance)) return false;
     s->best.distance = found->upper;
     s->best.nearest = *found;
-    box_keep_values(s, box, &s->best.nearest.t);
-    box_name_side(&s->pairs.at[box->pair], &s->best.nearest.a, &s->best.nearest.b);
+    box_keep_values(s, pair, values, &s->best.nearest.t);
+    box_name_side(pair, &s->best.nearest.a, &s->best.nearest.b);
+    return true;
 }
 
 /* Closes a box, whose distance is enough or cannot be known better. */
@@ -44,25 +52,161 @@ static double tolerance_of(const imp_survey *s, double total)
     return wanted > least ? wanted : least;
 }
 
-static imp_code measure_distance(imp_survey *s, survey_box *box, double total, box_state *state,
-                                 imp_error *error)
+/* --- Nearer values ---------------------------------------------------------------------------- */
+
+/* Returns the distance of the two points of a witness at other values: they stay where they are on
+ * their surfaces. INFINITY: they cannot be evaluated. */
+static imp_code distance_at(const imp_survey *s, const survey_pair *pair, const double *values,
+                            const imp_clearance *of, double *distance, imp_error *error)
+{
+    const imp_side *side[2] = {&of->a, &of->b};
+    double x[2][3], sum = 0;
+    imp_scene *scene;
+    *distance = INFINITY;
+    if (posed_scene_of_bodies(s->scene, values, pair->body, 2, pair->swept, &scene) != IMP_SUCCESS)
+        return error_set_memory(error);
+    bool is_known = true;
+    for (int k = 0; k < 2; ++k) {
+        const double at[3] = {side[k]->u, side[k]->v, of->t};
+        const imp_place where = {side[k]->body, side[k]->surface, side[k]->piece};
+        is_known = is_known && imp_piece_eval(scene, where, 1, at, x[k], NULL, NULL) == IMP_SUCCESS;
+    }
+    imp_scene_free(scene);
+    for (int i = 0; i < 3 && is_known; ++i) sum += (x[0][i] - x[1][i]) * (x[0][i] - x[1][i]);
+    if (is_known) *distance = sqrt(sum);
+    return IMP_SUCCESS;
+}
+
+/* Moves each value to the end of its range, in the whole survey, where the two points are nearer.
+ * *moved: any was. The least distance over small ranges is at a corner, mostly. */
+static imp_code move_values(imp_survey *s, const survey_pair *pair, const imp_clearance *of,
+                            double *values, bool *moved, imp_error *error)
+{
+    double least, d;
+    *moved = false;
+    imp_code code = distance_at(s, pair, values, of, &least, error);
+    for (size_t j = 0; j < s->parameters; ++j)
+        for (int end = 0; end < 2 && code == IMP_SUCCESS && j != pair->swept; ++end) {
+            const double before = values[j];
+            values[j] = end == 0 ? s->lo[j] : s->hi[j];
+            code = distance_at(s, pair, values, of, &d, error);
+            if (d < least)
+                least = d, *moved = true;
+            else
+                values[j] = before;
+        }
+    return code;
+}
+
+enum { DESCENTS_MOST = 4 };
+
+/* Looks for nearer bodies from a witness at the box's middle: at the corner of all values to which
+ * its points lead, and on from there. Any values are sound, since they bound the answer from above
+ * only. */
+static imp_code descend(imp_survey *s, const survey_pair *pair, const imp_clearance *from,
+                        box_state *state, imp_error *error)
+{
+    const query_times times =
+        box_is_swept(pair) ? (query_times){s->lo[pair->swept], s->hi[pair->swept]}
+                           : (query_times){s->question.options.t_start, s->question.options.t_end};
+    double *values = malloc((s->parameters + 1) * sizeof *values);
+    imp_clearance at = *from;
+    imp_code code = values != NULL ? IMP_SUCCESS : error_set_memory(error);
+    bool goes_on = code == IMP_SUCCESS;
+    if (goes_on) memcpy(values, s->box.middle, s->parameters * sizeof *values);
+    for (int k = 0; k < DESCENTS_MOST && goes_on; ++k) {
+        imp_scene *scene = NULL;
+        code = move_values(s, pair, &at, values, &goes_on, error);
+        if (code != IMP_SUCCESS || !goes_on) break;
+        if (posed_scene_of_bodies(s->scene, values, pair->body, 2, pair->swept, &scene) !=
+            IMP_SUCCESS)
+            code = error_set_memory(error);
+        else
+            code = box_run_distance(s, NULL, scene, times, s->best.distance, tolerance_of(s, 0),
+                                    &at, error);
+        imp_scene_free(scene);
+        goes_on = code == IMP_SUCCESS && note_nearest(s, pair, values, &at);
+        if (code == IMP_SUCCESS && box_must_end(s, at.reason))
+            *state = BOX_WAITING, goes_on = false;
+    }
+    free(values);
+    return code;
+}
+
+/* --- Boxes ------------------------------------------------------------------------------------ */
+
+static const double CONTACT_BEYOND = 1e-6; /* part of `enough`; what is nearer ends the search */
+
+/* Proves that the box is apart by what is enough, if that is known, by a search for a contact at
+ * that distance.
+ *
+ * Lemma. A query for contact that is clear at `enough` with room, or whose pairs are excluded by
+ * ways and rest (pair_spread.c), proves that nothing comes nearer than `enough` at any values of
+ * the box: the lemmas of a contact with `enough` for gamma_clear (survey_internal.h). It says so by
+ * bounds of second order, where the bracket at the middle loses the whole shift. Times that one
+ * query has proved are left out of the next, so that together they cover all. */
+static imp_code prove_enough(imp_survey *s, survey_box *box, imp_scene *scene,
+                             const box_bounds *bounds, box_state *state, imp_error *error)
+{
+    const double enough = survey_distance_enough(s), total = bounds->total;
+    const double gap = fmin(CONTACT_BEYOND * enough, s->best.distance - enough);
+    const double exact[2] = {enough + gap, enough};
+    const double clear = sum_upper(enough, total);
+    const double coarse[2] = {clear + 0.25 * (total + gap), clear};
+    imp_result found;
+    if (!(gap > 0 && enough > 0 && exact[0] > enough && s->best.distance < INFINITY))
+        return IMP_SUCCESS;
+    query_times times = box_times(s, box);
+    for (;;) {
+        const bool is_limited = box_limits_first(s, ROOMY_PAIRS_MOST);
+        const imp_code code =
+            box_run_roomy(s, box, scene, bounds, times, coarse, exact, &found, error);
+        if (code != IMP_SUCCESS) return code;
+        const bool is_clear = found.verdict == IMP_VERDICT_CLEAR;
+        survey_proof_note(s, -INFINITY, is_clear ? enough : 0);
+        if (is_clear) box->key = enough;
+        if (found.verdict != IMP_VERDICT_UNDECIDED) return IMP_SUCCESS;
+        if (!(found.reason == IMP_REASON_PAIRS && is_limited)) {
+            if (box_must_end(s, found.reason)) *state = BOX_WAITING;
+            return IMP_SUCCESS;
+        }
+        const double left = 0.5 * (times.end - times.start);
+        times.start = found.t_lower;
+        if (s->proof != NULL || !(times.end - times.start <= left)) return IMP_SUCCESS;
+    }
+}
+
+static imp_code measure_middle(imp_survey *s, survey_box *box, imp_scene *scene, double total,
+                               box_state *state, imp_error *error)
 {
     const double enough = survey_distance_enough(s);
     const double within = enough < INFINITY ? sum_upper(enough, total) : 0;
-    imp_scene *scene;
     imp_clearance found;
-    imp_code code = box_scene(s, box, &scene, error);
-    if (code != IMP_SUCCESS) return code;
-    code = box_run_distance(s, box, scene, box_times(s, box), within, tolerance_of(s, total),
-                            &found, error);
-    imp_scene_free(scene);
+    const imp_code code = box_run_distance(s, box, scene, box_times(s, box), within,
+                                           tolerance_of(s, total), &found, error);
     if (code != IMP_SUCCESS) return code;
     const double lower = total > 0 ? difference_lower(found.lower, total) : found.lower;
     survey_proof_note(s, -INFINITY, lower);
     if (lower > box->key) box->key = lower;
-    note_nearest(s, box, &found);
-    if (box_must_end(s, found.reason)) *state = BOX_WAITING;
-    return IMP_SUCCESS;
+    const survey_pair *pair = &s->pairs.at[box->pair];
+    const bool is_nearer = note_nearest(s, pair, s->box.middle, &found);
+    if (box_must_end(s, found.reason)) return *state = BOX_WAITING, IMP_SUCCESS;
+    if (!is_nearer || !(total > 0) || box_is_unmoved(pair)) return IMP_SUCCESS;
+    return descend(s, pair, &found, state, error);
+}
+
+static imp_code measure_distance(imp_survey *s, survey_box *box, const box_bounds *bounds,
+                                 box_state *state, imp_error *error)
+{
+    const bool is_moved = bounds->total > 0 && !box_is_unmoved(&s->pairs.at[box->pair]);
+    imp_scene *scene;
+    imp_code code = box_scene(s, box, &scene, error);
+    if (code != IMP_SUCCESS) return code;
+    if (is_moved) code = prove_enough(s, box, scene, bounds, state, error);
+    if (code == IMP_SUCCESS && *state == BOX_OPEN && !(box->key >= survey_distance_enough(s)))
+        code = measure_middle(s, box, scene, bounds->total, state, error);
+    imp_scene_free(scene);
+    return code;
 }
 
 imp_code box_ask_distance(imp_survey *s, survey_box *box, box_state *state, imp_error *error)
@@ -73,7 +217,7 @@ imp_code box_ask_distance(imp_survey *s, survey_box *box, box_state *state, imp_
     if (code != IMP_SUCCESS) return code;
     if (bounds.apart > box->key) box->key = bounds.apart;
     if (bounds.total < INFINITY && !(box->key >= survey_distance_enough(s)))
-        code = measure_distance(s, box, bounds.total, state, error);
+        code = measure_distance(s, box, &bounds, state, error);
     if (code != IMP_SUCCESS || *state != BOX_OPEN) return code;
     if (!(box->key >= survey_distance_enough(s)))
         code = box_split(s, box, &bounds, &is_split, error);

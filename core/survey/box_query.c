@@ -184,6 +184,19 @@ imp_code box_run_contact(imp_survey *s, const survey_box *proved, imp_scene *sce
     return code;
 }
 
+imp_code box_run_roomy(imp_survey *s, const survey_box *box, imp_scene *scene,
+                       const box_bounds *bounds, query_times times, const double coarse[2],
+                       const double exact[2], imp_result *result, imp_error *error)
+{
+    query_spread spread;
+    imp_code code = survey_spread_make(s, box, bounds, exact, &spread, error);
+    if (code == IMP_SUCCESS)
+        code = box_run_contact(s, box, scene, times, coarse, ROOMY_PAIRS_MOST,
+                               spread.is_known ? &spread : NULL, result, error);
+    survey_spread_clear(&spread);
+    return code;
+}
+
 imp_code box_run_distance(imp_survey *s, const survey_box *proved, imp_scene *scene,
                           query_times times, double within, double tolerance, imp_clearance *answer,
                           imp_error *error)

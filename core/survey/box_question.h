@@ -39,6 +39,18 @@ imp_code box_run_contact(imp_survey *s, const survey_box *proved, imp_scene *sce
                          query_times times, const double gamma[2], uint64_t pairs,
                          const query_spread *spread, imp_result *result, imp_error *error);
 
+/* A query with room takes no more pairs than this, then its box is halved: where room nearly fills
+ * the gap, pairs become small before they are excluded, and halves take a tenth of them. The links
+ * of real arms take the fewest pairs at 500 to 2000; at 4000 they take twice as many. */
+enum { ROOMY_PAIRS_MOST = 1000 };
+
+/* Runs a query with room for the shift of two bodies, and that limit: `coarse` is {gamma,
+ * gamma_clear} with room. Pairs are also excluded by the directions in which the values move the
+ * bodies (pair_spread.h), with the tolerances `exact`, which have no room. */
+imp_code box_run_roomy(imp_survey *s, const survey_box *box, imp_scene *scene,
+                       const box_bounds *bounds, query_times times, const double coarse[2],
+                       const double exact[2], imp_result *result, imp_error *error);
+
 /* Whether such a limit ends a query before the survey's own would. */
 bool box_limits_first(const imp_survey *s, uint64_t pairs);
 
@@ -62,9 +74,9 @@ imp_code box_split(imp_survey *s, const survey_box *box, const box_bounds *bound
 /* Replaces indices of bodies in a box's scene by those in the survey's scene. */
 void box_name_side(const survey_pair *pair, imp_side *a, imp_side *b);
 
-/* Stores the values at which a witness was found, and converts *t from a time of its query to the
- * scene's time. */
-void box_keep_values(imp_survey *s, const survey_box *box, double *t);
+/* Stores the values at which a witness of the pair was found, and converts *t from a time of its
+ * query to the scene's time. */
+void box_keep_values(imp_survey *s, const survey_pair *pair, const double *values, double *t);
 
 /* Asks about a box; *state is BOX_OPEN at the call. */
 imp_code box_ask_contact(imp_survey *s, survey_box *box, box_state *state, imp_error *error);

@@ -19,10 +19,9 @@ void box_name_side(const survey_pair *pair, imp_side *a, imp_side *b)
     b->body = pair->body[b->body];
 }
 
-void box_keep_values(imp_survey *s, const survey_box *box, double *t)
+void box_keep_values(imp_survey *s, const survey_pair *pair, const double *values, double *t)
 {
-    const survey_pair *pair = &s->pairs.at[box->pair];
-    memcpy(s->best.values, s->box.middle, s->parameters * sizeof *s->box.middle);
+    memmove(s->best.values, values, s->parameters * sizeof *values);
     s->best.is_known = true;
     if (!box_is_swept(pair)) return;
     s->best.values[pair->swept] = *t;

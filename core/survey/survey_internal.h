@@ -177,10 +177,10 @@ typedef struct box_bounds {
 imp_code survey_measure(imp_survey *s, const survey_box *box, size_t left_out, double t_start,
                         double t_end, box_bounds *bounds, imp_error *error);
 
-/* Makes the spread of the box that was measured last, of two bodies. It is to be cleared in any
- * case. */
+/* Makes the spread of the box that was measured last, of two bodies, for a search with these
+ * tolerances, {gamma, gamma_clear}, at all values. It is to be cleared in any case. */
 imp_code survey_spread_make(imp_survey *s, const survey_box *box, const box_bounds *bounds,
-                            query_spread *to, imp_error *error);
+                            const double gamma[2], query_spread *to, imp_error *error);
 void survey_spread_clear(query_spread *spread);
 
 /* Adds the first box of each pair, with a key that is proved of all values. */

@@ -62,7 +62,7 @@ static bool knows_any(const imp_survey *s, size_t body, const bool *known)
 }
 
 imp_code survey_spread_make(imp_survey *s, const survey_box *box, const box_bounds *bounds,
-                            query_spread *to, imp_error *error)
+                            const double gamma[2], query_spread *to, imp_error *error)
 {
     const survey_pair *pair = &s->pairs.at[box->pair];
     const value_box values = {s->parameters, bounds->lo,      bounds->hi,
@@ -72,8 +72,8 @@ imp_code survey_spread_make(imp_survey *s, const survey_box *box, const box_boun
                          .body = {pair->body[0], pair->body[1]},
                          .left_out = pair->left_out,
                          .parameters = s->parameters,
-                         .gamma = s->question.gamma,
-                         .gamma_clear = s->question.gamma_clear};
+                         .gamma = gamma[0],
+                         .gamma_clear = gamma[1]};
     if (pair->drift > 0) to->gamma_clear = sum_upper(to->gamma_clear, pair->drift);
     for (int side = 0; side < 2; ++side) {
         body_spread made;

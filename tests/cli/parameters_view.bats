@@ -23,6 +23,11 @@ setup() {
     json '.verdict == "holds" and .stats.pairs < 2390' # ten times those of the exact motion
 }
 
+@test "the least distance of an arm with six joints off is known to a tenth in seconds" {
+    run -0 "$IMPINGE" clearance "$data/arm_off.json" --tolerance 0.1 --max-pairs 150000 --json
+    json '.upper > 12.18 and .upper < 12.19 and .lower >= 0.9 * .upper - 1e-9 and .parameters["e2"] > 0.0087'
+}
+
 @test "a hinge that is a millimetre off leaves room, and three do not" {
     run -0 "$IMPINGE" clearance "$data/door.json" --require 1.5 --json
     json '.verdict == "holds"'

@@ -79,9 +79,64 @@ START_TEST(one_query_covers_a_parameter_though_another_map_stays_at_an_angle)
 }
 END_TEST
 
+/* Compares what is proved of a box with the distance at some of its values. */
+static void judge_box(void *context, const imp_survey_box *box)
+{
+    size_t *count = context;
+    if (box->verdict != IMP_VERDICT_CLEAR) return;
+    *count += 1;
+    for (int i = 0; i <= 100; ++i)
+        for (int j = 0; j <= 4; ++j) {
+            const double a = box->lo[0] + (box->hi[0] - box->lo[0]) * i / 100;
+            const double b = box->lo[1] + (box->hi[1] - box->lo[1]) * j / 4;
+            const double d = hypot(2.7 - cos(b) - cos(a), sin(b) + sin(a)) - 0.6;
+            ck_assert_msg(d >= box->lower, "%.17g at %.17g, %.17g, but %.17g is proved", d, a, b,
+                          box->lower);
+        }
+}
+
+/* The least distance, 0.1, is inside of the ranges, so that no corner and no first middle shows
+ * it: boxes are closed at an upper bound that is too high, which must not make the lower one so.
+ * The third parameter has next to no range, and is there to be moved to its ends. */
+START_TEST(a_least_distance_inside_of_the_ranges_is_not_missed)
+{
+    uint64_t random = suite_seed();
+    const int draws = suite_times(12);
+    for (int k = 0; k < draws; ++k) {
+        char text[1024];
+        const double lo[2] = {random_between(&random, -1, 0), random_between(&random, -1, 0)};
+        snprintf(text, sizeof text,
+                 "{'parameters':{'a':[%.17g,%.17g],'b':[%.17g,%.17g],'c':[-1e-3,1e-3]},'bodies':["
+                 "{'surfaces':[{'type':'sphere','radius':0.3,'center':[1,0,0]}],'maps':["
+                 "{'type':'rotate','axis':[0,0,1],'rate':1,'clock':'a'}]},"
+                 "{'surfaces':[{'type':'sphere','radius':0.3,'center':[-1,0,0]}],'maps':["
+                 "{'type':'rotate','axis':[0,0,1],'rate':1,'clock':'b'},"
+                 "{'type':'translate','offset':[[2.7,0,0]]},"
+                 "{'type':'translate','velocity':[0,0,1],'clock':'c'}]}]}",
+                 lo[0], lo[0] + 1, lo[1], lo[1] + 1);
+        imp_scene *scene = scene_of(text);
+        imp_clearance_options asked = imp_clearance_options_default();
+        imp_survey_options how = imp_survey_options_default();
+        asked.tolerance = k % 2 == 0 ? 1e-4 : 0.02;
+        size_t told = 0;
+        how.max_boxes = 60;
+        how.sink = judge_box;
+        how.sink_context = &told;
+        const answer found = survey(scene, 1e-3, &asked, &how);
+        if (k % 2 == 1) ck_assert_int_eq(found.near.reason, IMP_REASON_NONE);
+        ck_assert_uint_gt(told, 3);
+        ck_assert_msg(found.near.lower <= 0.1, "%.17g: %s", found.near.lower, text);
+        if (k % 2 == 1) ck_assert_double_ge(found.near.lower, 0.098 - 1e-9);
+        ck_assert_double_ge(found.near.upper, 0.1 - 1e-12);
+        imp_scene_free(scene);
+    }
+}
+END_TEST
+
 int main(void)
 {
     const suite_loop loops[] = {
+        {a_least_distance_inside_of_the_ranges_is_not_missed, 1},
         {a_cone_with_two_tilts_comes_as_near_to_its_bore_as_its_rim, 1},
         {a_ball_and_a_plane_under_three_errors_are_as_near_as_the_worst_of_them, 1},
         {a_hand_is_as_far_from_its_shoulder_as_the_law_of_cosines_says, 1},
