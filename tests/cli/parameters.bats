@@ -167,7 +167,7 @@ in_parts() {
     fails 4 'got "x", which is not a parameter' "$IMPINGE" pair 'sphere ! rotate axis=0,0,1 rate=1 clock=x' sphere
     for option in --each '--refine 1e-2,1e-3'; do
         # shellcheck disable=SC2086 # an option and its value
-        fails 2 'and --boxes exclude each other' "$IMPINGE" solve arms.json $option --boxes p
+        fails 2 'and --boxes exclude each other, since the boxes of a file are those of one search; ' "$IMPINGE" solve arms.json $option --boxes p
     done
     [ ! -e p ]
 }

@@ -66,22 +66,33 @@ static imp_code refuse_paper(imp_error *error)
     return IMP_ERROR_USAGE;
 }
 
-/* The first of the options that is given; NULL: none is. */
-static const char *first_given(const arguments *args, const char *const *names)
+/* Options that ask several questions, and what to do for the boxes of one. */
+static const struct several {
+    const char *option, *cure;
+} several[] = {
+    {"each", "without --each each box names its two bodies"},
+    {"profile", "give the --time, or the --parameter, of one slice"},
+    {"refine", "give the last --gamma"},
+};
+
+static exit_status refuse_several(const arguments *args)
 {
-    for (size_t k = 0; names[k] != NULL; ++k)
-        if (arguments_option(args, names[k]) != NULL) return names[k];
-    return NULL;
+    static const char *const files[] = {"boxes", "resume"};
+    for (size_t k = 0; k < sizeof several / sizeof *several; ++k)
+        for (size_t i = 0; i < sizeof files / sizeof *files; ++i)
+            if (arguments_option(args, several[k].option) != NULL &&
+                arguments_option(args, files[i]) != NULL)
+                return complain(EXIT_USAGE, args->verb->name,
+                                "--%s and --%s exclude each other, since the boxes of a file are "
+                                "those of one search; %s",
+                                several[k].option, files[i], several[k].cure);
+    return EXIT_ANSWERED;
 }
 
 exit_status survey_check(const arguments *args)
 {
-    static const char *const several[] = {"each", "profile", "refine", NULL};
-    static const char *const files[] = {"boxes", "resume", NULL};
-    const char *many = first_given(args, several), *file = first_given(args, files);
-    if (many != NULL && file != NULL)
-        return complain(EXIT_USAGE, args->verb->name, "--%s and --%s exclude each other", many,
-                        file);
+    const exit_status status = refuse_several(args);
+    if (status != EXIT_ANSWERED) return status;
     if (arguments_choice(args, "method", 0) != 0)
         return complain(EXIT_USAGE, args->verb->name, "%s", without_paper);
     return EXIT_ANSWERED;
