@@ -45,6 +45,7 @@ elaborated() {
     printf 'v 0 0 0\nv 2 0 0\nv 0 2 0\nv 2 2 1\nf 1 2 3\nf 2 4 3\n' >below.obj
     printf 'v 0 0 1.5\nv 2 0 1.5\nv 0 2 1.5\nv 2 2 2.5\nf 1 2 3\nf 2 4 3\n' >above.obj
     "$IMPINGE" pair 'mesh file=below.obj' 'mesh file=above.obj ! rotate axis=0,0,1 rate=1' --gamma 0.1 --proof meshes.proof
+    grep -q '^file ' meshes.proof # files that the scene names, which the kernel passes over
     elaborated meshes.proof
 }
 

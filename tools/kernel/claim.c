@@ -219,11 +219,11 @@ static void skip(claim *c, bytes *in, char **rest) { (void)c, (void)in, *rest = 
 /* Reads a line; of two that differ the last one counts, and is printed. False: it is "trees". */
 static bool read_line(claim *c, bytes *in, char *rest)
 {
-    static const char *const keys[] = {"verdict", "parameter", "within", "shape", "map",    "body",
-                                       "surface", "ignore",    "scene",  "type",  "program"};
+    static const char *const keys[] = {"verdict", "parameter", "within", "shape", "map",  "body",
+                                       "surface", "program",   "scene",  "type",  "file", "ignore"};
     static void (*const read[])(claim *, bytes *, char **) = {
         read_verdict, read_parameter, read_points, read_shape, read_map, read_body,
-        read_surface, read_ignored,   skip,        skip,       skip};
+        read_surface, skip,           skip,        skip,       skip,     read_ignored};
     const char *key = bytes_word(in, &rest);
     const size_t count = sizeof keys / sizeof *keys;
     double *number = strcmp(key, "apart") == 0  ? &c->apart
