@@ -566,6 +566,7 @@ noinst_HEADERS += \
     tests/support/mesh_bytes.h \
     tests/support/net_distance.h \
     tests/support/oracle.h \
+    tests/support/pose_descent.h \
     tests/support/query_helpers.h \
     tests/support/rough_sheets.h \
     tests/support/same_json.h \
