@@ -225,12 +225,11 @@ static bool read_line(claim *c, bytes *in, char *rest)
         read_verdict, read_parameter, read_points, read_shape, read_map, read_body,
         read_surface, skip,           skip,        skip,       skip,     read_ignored};
     const char *key = bytes_word(in, &rest);
-    const size_t count = sizeof keys / sizeof *keys;
     double *number = strcmp(key, "apart") == 0  ? &c->apart
                      : strcmp(key, "from") == 0 ? &c->clocks[0].all.lo
                      : strcmp(key, "to") == 0   ? &c->clocks[0].all.hi
                                                 : NULL;
-    size_t k = 0;
+    size_t k = 0, count = sizeof keys / sizeof *keys;
     if (strcmp(key, "trees") == 0) return false;
     if (number != NULL) *number = bytes_number(in, &rest);
     while (number == NULL && k < count && strcmp(key, keys[k]) != 0) ++k;
