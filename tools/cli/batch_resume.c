@@ -185,14 +185,15 @@ resume_state batch_resume_match(batch_resume *resume, const input_text *scene,
                                 answered_line *answer)
 {
     if (resume->file == NULL) return RESUME_NEW;
-    if (resume->matched == 0 && !resume->begun && !is_first_scene(resume, scene))
-        return RESUME_REFUSED;
-    if (resume->matched == resume->answers) return begin(resume) ? RESUME_NEW : RESUME_REFUSED;
+    const bool is_first = resume->matched == 0 && !resume->begun;
+    if (resume->matched == resume->answers)
+        return (!is_first || is_first_scene(resume, scene)) && begin(resume) ? RESUME_NEW
+                                                                             : RESUME_REFUSED;
     const bool read = input_read_line(resume->file, resume->path, verb_of(resume), &resume->line);
     json_t *done = read ? json_loadb(resume->line.text, resume->line.length, 0, NULL) : NULL;
     json_t *asked = json_loadb(scene->text, scene->length, 0, NULL);
     resume->matched += 1;
-    const bool good = fits(resume, done, asked);
+    const bool good = fits(resume, done, asked) && (!is_first || is_first_scene(resume, scene));
     *answer = judge(resume, done);
     json_decref(done);
     json_decref(asked);
