@@ -175,6 +175,22 @@ START_TEST(parts_that_meet_are_all_proved)
 }
 END_TEST
 
+/* Two balls at one place, which are both there at 0.5 alone: no cell of the tree holds both. */
+START_TEST(surfaces_are_there_at_one_moment)
+{
+    certificate d = balls_made();
+    replace(&d, "; cos(v)*cos(u)", "; t in [0, 0.5]; cos(v)*cos(u)");
+    replace(&d, "; 4 + cos(v)*cos(u)", "; t in [0.5, 1]; 4 + cos(v)*cos(u)");
+    require(&d, "ends and another begins at 0.5");
+    replace(&d, "; t in [0.5, 1]; 4", "; t in [0.25, 1]; 4");
+    require(&d, NULL);
+    replace(&d, "; t in [0.25, 1]; 4 + cos", "; t in [0.5, 1]; cos");
+    require(&d, "ends and another begins at 0.5");
+    replace(&d, "; t in [0, 0.5]; cos", "; t in [0, 0.25]; cos");
+    require(&d, NULL);
+}
+END_TEST
+
 START_TEST(trees_that_leave_out_cells_are_refused)
 {
     certificate c = bowl_made();
@@ -267,4 +283,4 @@ SUITE_MAIN("certificates", true_certificates_hold, false_certificates_are_refuse
            maps_left_out_shrink_the_claim, bad_axes_cost_time_and_no_verdict,
            what_cannot_be_said_is_assumed, points_of_what_is_assumed_are_checked,
            formulas_without_a_value_are_refused, undefined_maps_ends_and_points_are_refused,
-           parts_that_meet_are_all_proved)
+           parts_that_meet_are_all_proved, surfaces_are_there_at_one_moment)

@@ -77,6 +77,53 @@ const part *enclose_next_part(const piece *all, const part *p, const box3 *b)
     return NULL;
 }
 
+/* Whether the part ends (side 1) or begins (0) at a time within the claim's, and no part of the piece
+ * goes on there for all of its u and v. */
+static bool ends_within(const piece *all, const part *p, const scene_clock *clock, int side)
+{
+    const double at = side == 1 ? p->hi[T] : p->lo[T];
+    bool goes_on = false;
+    for (size_t k = 0; k < all->count && !goes_on; ++k) {
+        const part *q = &all->parts[k];
+        goes_on = side == 1 ? q->lo[T] <= at && at < q->hi[T] : q->lo[T] < at && at <= q->hi[T];
+        for (int j = 0; j < T; ++j)
+            goes_on = goes_on && q->lo[j] <= p->lo[j] && p->hi[j] <= q->hi[j];
+    }
+    return clock->lo < at && at < clock->hi && !goes_on;
+}
+
+static bool begins_at(const stage *g, const scene_clock *clock, double at)
+{
+    for (size_t k = 0; k < g->count; ++k)
+        for (size_t i = 0; i < g->pieces[k].count; ++i) {
+            const part *p = &g->pieces[k].parts[i];
+            if (p->lo[T] == at && ends_within(&g->pieces[k], p, clock, 0)) return true;
+        }
+    return false;
+}
+
+static bool ends_where_begins(const stage *a, const stage *b, const scene_clock *clock, double *at)
+{
+    for (size_t k = 0; k < a->count; ++k)
+        for (size_t i = 0; i < a->pieces[k].count; ++i) {
+            const part *p = &a->pieces[k].parts[i];
+            *at = p->hi[T];
+            if (ends_within(&a->pieces[k], p, clock, 1) && begins_at(b, clock, *at)) return true;
+        }
+    return false;
+}
+
+/* Lemma. Cells meet in a value of a clock, at which one cell may hold all of A and the other all of
+ * B. That leaves no pair of points out unless A is not in the second cell and B not in the first:
+ * where parts go on, they are continuous, and their points at that value are in either cell. */
+bool enclose_ends_meet(const statement *s, const chain *a, const chain *b, double *at)
+{
+    const stage *of[2] = {&s->stages[a->stages[0]], &s->stages[b->stages[0]]};
+    const scene_clock *clock = &s->clocks[of[0]->clock];
+    return of[0]->clock == of[1]->clock && (ends_where_begins(of[0], of[1], clock, at) ||
+                                            ends_where_begins(of[1], of[0], clock, at));
+}
+
 /* Returns whether a part of a surface begins when the claim ends, or ends when it begins, and the
  * box has a face in common with it: no neighbouring box holds that face. */
 static bool touches_end(const place *p, const piece *all, const box3 *b)

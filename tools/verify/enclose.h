@@ -88,6 +88,10 @@ enclosed enclose_choose(const place *p, size_t stage_index, const box3 *where, c
 /* Finds the part of a piece in which its own box is. */
 enclosed enclose_choose_part(const piece *all, const box3 *own, const part **found, split *divide);
 
+/* Returns whether a part of one surface ends at a value of its clock, within the claim, at which a
+ * part of the other begins, so that no cell holds both; *at: the value. */
+bool enclose_ends_meet(const statement *s, const chain *a, const chain *b, double *at);
+
 /* Returns the next part after `p` that the whole box is in, or NULL: boxes without a size, and ends
  * that are known to an ulp, may be in several. */
 const part *enclose_next_part(const piece *all, const part *p, const box3 *b);

@@ -283,6 +283,10 @@ static bool take_pair(walk *w, size_t a, size_t b, const work *room)
     if (w->text != NULL)
         fprintf(w->text, "pair %zu %zu: '%s' and '%s'\n", a, b, s->bodies[p.chain[0]->body],
                 s->bodies[p.chain[1]->body]);
+    double at;
+    if (p.is_said && enclose_ends_meet(s, p.chain[0], p.chain[1], &at))
+        return input_refuse(
+            w->in, "one surface ends and another begins at %.17g, which is not proved", at);
     bool good = leave_out(&p, input_count(w->in, UINT32_MAX)) && begin_values(&p, &c);
     for (int side = 0; side < 2 && good; ++side) {
         good = read_order(&p, side, c.count[side]);
