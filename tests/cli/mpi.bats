@@ -77,7 +77,7 @@ turning() {
 }
 
 @test "advice about undecided pairs comes from the rank that has searched them" {
-    egg() { printf '{"name": "%s", "surfaces": [{"type": "ellipsoid", "radii": [1,1,%s]}]}' "$@"; }
+    egg() { printf '{"name": "%s", "surfaces": [{"type": "ellipsoid", "radii": [1,1.0005,%s]}]}' "$@"; }
     printf '{"time": [0,1], "bodies": [%s, %s, %s, %s]}' "$(egg a 1)" "$(egg b 0.999)" \
         "$(egg c 0.998)" "$(egg d 0.997)" >eggs.json
     limits=(--each --json --gamma 1e-7 --max-pairs 200)
