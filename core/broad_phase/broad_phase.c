@@ -138,6 +138,7 @@ static double greatest_distance(const swept_box *a, const swept_box *b)
     double square = 0;
     for (int i = 0; i < 3; ++i) {
         const double up = b->hi[i] - a->lo[i], down = a->hi[i] - b->lo[i];
+        if (isnan(up) || isnan(down)) return NAN;
         const double most = up > down ? up : down;
         square += most * most;
     }

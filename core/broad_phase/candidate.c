@@ -97,7 +97,8 @@ static double height_lower(const node *n, const double k[3], double sign)
         }
         spread += fabs(term);
     }
-    const double slack = padded_upper(spread + 32 * UNIT_ROUNDOFF * size, 32) + PRODUCTS_UNDERFLOW;
+    const double slack =
+        padded_upper(spread + 32 * UNIT_ROUNDOFF * size, 32) + 2 * PRODUCTS_UNDERFLOW;
     return difference_lower(middle, slack);
 }
 

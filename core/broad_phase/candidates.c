@@ -157,12 +157,13 @@ static bool prepare(collection *all)
     return all->surfaces != NULL && all->sweep != NULL;
 }
 
-double collection_slip_most(const imp_options *options, bool may_rest)
+double collection_slip_most(const imp_options *options, const candidate_search *search)
 {
-    if (options->baseline != IMP_BASELINE_NONE || !may_rest) return -1;
+    if (options->baseline != IMP_BASELINE_NONE || !search->may_rest) return -1;
     const double clear = tolerances_clear(options->gamma, options->gamma_clear);
     const double room = options->gamma - clear;
-    return (clear < room ? clear : room) / TUNING_REST_SLIP;
+    const double most = (clear < room ? clear : room) / TUNING_REST_SLIP;
+    return search->slip_most < most ? search->slip_most : most;
 }
 
 imp_code candidates_find(candidate_list *list, imp_scene *scene, const imp_options *options,
@@ -172,7 +173,7 @@ imp_code candidates_find(candidate_list *list, imp_scene *scene, const imp_optio
     const bool models =
         options->baseline == IMP_BASELINE_NONE; /* the paper's algorithm has no frames */
     collection all = {.scene = scene,
-                      .slip_most = collection_slip_most(options, search->may_rest),
+                      .slip_most = collection_slip_most(options, search),
                       .may_halve = search->may_halve,
                       .common_motion = models ? collection_common_motion(scene) : 0,
                       .options = options,
@@ -208,7 +209,7 @@ void candidates_clear(candidate_list *list)
 {
     for (size_t k = 0; list->owns_trees && list->candidates != NULL && k < list->count; ++k)
         tree_free(list->candidates[k].tree);
-    for (size_t k = 0; list->half_planes > 0 && k < list->count; ++k)
+    for (size_t k = 0; list->half_planes > 0 && list->candidates != NULL && k < list->count; ++k)
         free(list->candidates[k].half);
     if (list->candidates != list->at_hand) free(list->candidates);
     free(list->pairs);

@@ -47,11 +47,12 @@ typedef struct candidate_limit {
 typedef struct candidate_search {
     double gamma_clear;
     bool is_nearest; /* pairs may be left out that are farther than another pair at all times */
-    bool may_rest;  /* pairs that turn within themselves may have trees of one moment: in a query of
+    bool may_rest; /* pairs that turn within themselves may have trees of one moment: in a query of
                       all times, not of slices */
-    bool may_halve; /* nodes that miss a half plane may be left out: each pair that is left need
+    double slip_most; /* of the list, at most; length */
+    bool may_halve;   /* nodes that miss a half plane may be left out: each pair that is left need
                        not be near all points that it stands for (proofs, spreads) */
-    bool in_parts;  /* candidates_frame is asked for frames and missing roots, for some pairs at a
+    bool in_parts;    /* candidates_frame is asked for frames and missing roots, for some pairs at a
                       time, so that the first pairs are searched before the last are prepared */
 } candidate_search;
 

@@ -127,7 +127,7 @@ imp_code candidates_frame(candidate_list *list, const candidate_list *whole, siz
                           imp_stats *stats, imp_error *error)
 {
     collection all = {.scene = scene,
-                      .slip_most = collection_slip_most(options, search->may_rest),
+                      .slip_most = collection_slip_most(options, search),
                       .may_halve = search->may_halve,
                       .options = options,
                       .limit = limit,

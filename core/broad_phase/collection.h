@@ -124,7 +124,7 @@ size_t collection_common_motion(const imp_scene *scene);
 
 /* Returns the largest slip that is small against gamma_clear and against gamma - gamma_clear; < 0:
  * no pair is searched at one moment. */
-double collection_slip_most(const imp_options *options, bool may_rest);
+double collection_slip_most(const imp_options *options, const candidate_search *search);
 
 /* Gives the surfaces of each pair trees without the motion that both have in common. *done false: a
  * limit was reached first. */

@@ -24,7 +24,8 @@ imp_code clearance_new(imp_scene *scene, bool any_pair, const imp_options *optio
 imp_code clearance_part(const clearance_search *whole, const size_t body[2],
                         const limit_watch *watch, clearance_search **made, imp_error *error);
 bool clearance_is_each(const clearance_search *c);
-double clearance_near(const clearance_search *c);          /* farther pairs are left out; length */
+double clearance_near(const clearance_search *c);      /* farther pairs are left out; length */
+double clearance_slip_most(const clearance_search *c); /* that the answer has room for; length */
 bool clearance_is_of_all_times(const clearance_search *c); /* false: slices */
 void clearance_free(clearance_search *c);
 

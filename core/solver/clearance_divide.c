@@ -114,6 +114,16 @@ double clearance_near(const clearance_search *c)
     return c->asked.within > 0 ? c->asked.within : INFINITY;
 }
 
+/* Lemma. With a slip of R gamma / 4, 4 slip <= R upper wherever upper > gamma (min_distance.c). What
+ * is required is told from a millionth less (tolerances_nearly), which leaves room for 8 slips of
+ * 2^-24 of it. */
+double clearance_slip_most(const clearance_search *c)
+{
+    const double by_tolerance = 0.25 * c->asked.tolerance * c->options.gamma;
+    const double by_required = 0x1p-24 * c->asked.required;
+    return c->asked.required > 0 && by_required < by_tolerance ? by_required : by_tolerance;
+}
+
 bool clearance_is_of_all_times(const clearance_search *c) { return c->asked.slices == 1; }
 
 void clearance_free(clearance_search *c)

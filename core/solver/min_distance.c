@@ -180,7 +180,7 @@ static imp_code find_witness(min_distance *m, const pair *p, const piece_hint *h
     code = witness_seek(nodes, t, m->upper, &seen, error);
     if (code == IMP_SUCCESS && hint != NULL) code = walk_on(m, p, &single, &seen, error);
     if (code != IMP_SUCCESS || !(seen.gap_upper < m->upper)) return code;
-    if (seen.gap_upper < p->key[0])
+    if (sum_upper(seen.gap_upper, m->slip) < p->key[0])
         return contradiction_fault(single.a->surface, single.b->surface, seen.gap_upper, t,
                                    p->key[0], error);
     nodes[0] = single.a, nodes[1] = single.b;

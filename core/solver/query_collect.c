@@ -58,20 +58,22 @@ static bool may_rest(const imp_query *query)
     return query->clearance == NULL || clearance_is_of_all_times(query->clearance);
 }
 
-/* Whether only the nearest pair of all is sought, at each time. */
+/* Whether only the nearest pair of all is sought, at each time, and not that of each two bodies. */
 static bool is_nearest(const imp_query *query)
 {
-    return query->clearance != NULL && !clearance_is_each(query->clearance);
+    return query->clearance != NULL && !clearance_is_each(query->clearance) && query->divided == 0;
 }
 
 /* Half planes are left out where a verifier, or a box of values, sees each pair of points. */
 static candidate_search search_of(const imp_query *query, double near)
 {
-    return (candidate_search){.gamma_clear = near,
-                              .is_nearest = is_nearest(query),
-                              .may_rest = may_rest(query),
-                              .may_halve = query->proof == NULL && query->impact.spread == NULL,
-                              .in_parts = query->divided > 0};
+    return (candidate_search){
+        .gamma_clear = near,
+        .is_nearest = is_nearest(query),
+        .may_rest = may_rest(query),
+        .slip_most = query->clearance != NULL ? clearance_slip_most(query->clearance) : INFINITY,
+        .may_halve = query->proof == NULL && query->impact.spread == NULL,
+        .in_parts = query->divided > 0};
 }
 
 /* If a limit ends it, the next step starts it again. For a minimum distance without `within`, all

@@ -115,7 +115,7 @@ static double choose_m(const ellipsoid_instance *s, const double x[3])
 }
 
 /* What a^2 - m is divided into, rounded so that it is no better a bound: a double w with w^2 (a^2 -
- * m) >= 1 for m > 0, <= 1 for m < 0. Roundings of w: square 1 and difference 1, halved by the
+ * m) >= 1 for m > 0, <= 1 for m < 0, if a^2 does not overflow. Roundings of w: square 1 and difference 1, halved by the
  * root, root 1, quotient 1; the difference is at least a^2 / 8, so that what the square's rounding
  * does to it counts 8 times. */
 static double weight(double a, double m)
@@ -138,7 +138,8 @@ static bool confocal_gap(const ellipsoid_instance *s, const imp_model x[3], imp_
 {
     const double middle[3] = {x[0].a, x[1].a, x[2].a}, m = choose_m(s, middle);
     imp_model scaled[3];
-    if (!(fabs(m) > 0x1p-200 && fabs(m) < 0x1p200)) return false;
+    const double most_radius = imp_larger(imp_larger(s->radii[0], s->radii[1]), s->radii[2]);
+    if (!(most_radius < 0x1p500 && fabs(m) > 0x1p-200 && fabs(m) < 0x1p200)) return false;
     for (int i = 0; i < 3; ++i) scaled[i] = imp_scale(x[i], weight(s->radii[i], m));
     const imp_model one = imp_num(1), left = imp_sub(one, sum_of_squares(scaled, 3));
     const imp_model square = imp_scale(left, m);

@@ -376,6 +376,22 @@ grid() {
     tail -n 1 <<<"$output" | jq -e '[.slices[].lower | . > 0.69] | length == 3 and all'
 }
 
+@test "surfaces nearly about one line are bracketed as narrowly as is asked" {
+    local tube='cylinder radius=.5 height=1.2 ! translate offset=[[1e-5,0,0]]'
+    run -0 "$IMPINGE" clearance sphere "$tube" --gamma 0.2 --tolerance 1e-7 --json
+    json '.upper - .lower <= 1e-7 * .upper and .reason == null'
+    run -0 "$IMPINGE" clearance sphere "$tube" --gamma 0.2 --require 0.21896
+    # The squares of these radii overflow: 0.34 apart.
+    run -3 "$IMPINGE" clearance 'ellipsoid radii=1e200,1,1' 'sphere radius=.1 center=0.9e200,0,0' \
+        --require 0.5 --max-pairs 1000
+}
+
+@test "each two of hundreds of bodies get an answer, however far apart" {
+    jq -nc '{bodies: [range(600) | {surfaces: [{type: "sphere", center: [3 * ., 0, 0]}]}]}' >row.json
+    run -0 "$IMPINGE" clearance row.json --each --require 0.5 --tolerance 0.1 --json
+    json '(.pairs | length) == 179700 and all(.pairs[]; .lower > 0.89 and .upper < 1798)'
+}
+
 @test "a ball inside a solid body touches it among hundreds of other bodies" {
     grid 9 | jq -c '.bodies[] += {group: ["grid"]} |
         .bodies += [{name: "case", solid: true, surfaces: [{type: "sphere", radius: 100}]},
