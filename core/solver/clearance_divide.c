@@ -114,9 +114,8 @@ double clearance_near(const clearance_search *c)
     return c->asked.within > 0 ? c->asked.within : INFINITY;
 }
 
-/* Lemma. With a slip of R gamma / 4, 4 slip <= R upper wherever upper > gamma (min_distance.c). What
- * is required is told from a millionth less (tolerances_nearly), which leaves room for 8 slips of
- * 2^-24 of it. */
+/* Lemma. With a slip of R gamma / 4, 4 slip <= R upper wherever upper > gamma (min_distance.c). A
+ * millionth of what is required (tolerances_nearly) leaves room for 8 slips of 2^-24 of it. */
 double clearance_slip_most(const clearance_search *c)
 {
     const double by_tolerance = 0.25 * c->asked.tolerance * c->options.gamma;

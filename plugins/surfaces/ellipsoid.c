@@ -115,9 +115,9 @@ static double choose_m(const ellipsoid_instance *s, const double x[3])
 }
 
 /* What a^2 - m is divided into, rounded so that it is no better a bound: a double w with w^2 (a^2 -
- * m) >= 1 for m > 0, <= 1 for m < 0, if a^2 does not overflow. Roundings of w: square 1 and difference 1, halved by the
- * root, root 1, quotient 1; the difference is at least a^2 / 8, so that what the square's rounding
- * does to it counts 8 times. */
+ * m) >= 1 for m > 0, <= 1 for m < 0, if a^2 does not overflow. Roundings of w: square 1 and
+ * difference 1, halved by the root, root 1, quotient 1; the difference is at least a^2 / 8, so that
+ * what the square's rounding does to it counts 8 times. */
 static double weight(double a, double m)
 {
     const double w = 1 / sqrt(a * a - m);

@@ -77,8 +77,8 @@ const part *enclose_next_part(const piece *all, const part *p, const box3 *b)
     return NULL;
 }
 
-/* Whether the part ends (side 1) or begins (0) at a time within the claim's, and no part of the piece
- * goes on there for all of its u and v. */
+/* Whether the part ends (side 1) or begins (0) at a time within the claim's, and no part of the
+ * piece goes on there for all of its u and v. */
 static bool ends_within(const piece *all, const part *p, const scene_clock *clock, int side)
 {
     const double at = side == 1 ? p->hi[T] : p->lo[T];
