@@ -53,7 +53,7 @@ near='sphere center=2.01,0.1,0.2'
     "$IMPINGE" pair "sphere ! $turn" "sphere center=4,0,0 ! $turn" --proof shared.proof
     run -0 verify shared.proof
     [ "${lines[0]}" = holds ]
-    [[ ${lines[2]} == "1 pair of surfaces, 1 leaf,"* ]]
+    [[ ${lines[2]} == "2 bodies, 1 pair of surfaces, 1 leaf,"* ]]
 }
 
 @test "a ball that turns in its socket is proved by parts, none of which stands for others" {

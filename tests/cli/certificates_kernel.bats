@@ -53,8 +53,24 @@ elaborated() {
     "$IMPINGE" solve "$top_srcdir/tools/data/door.json" --proof door.proof
     elaborated door.proof
     run -0 kernel door.proof.long
-    [[ ${lines[1]} == "clear: no two points nearer than "*", t from 0 to 1, dx from -1 to 1, dy from -1 to 1" ]]
+    [[ ${lines[1]} == "clear: no two points nearer than "*", t from 0 to 1, 'dx' from -1 to 1, 'dy' from -1 to 1" ]]
     [ "${lines[2]}" = "ignored: 'cupboard' and 'frame'" ]
+}
+
+@test "names are told in quotes that they cannot end" {
+    "$IMPINGE" solve "$top_srcdir/tools/data/door.json" --proof door.proof
+    verify door.proof --elaborate long --quiet
+    sed "s/^\(parameter .*\) dx\$/\1 t from 0 to 9, 'x\\\\/;s/^body frame/body frame'/" long >other
+    run -0 kernel other
+    [[ ${lines[1]} == *", t from 0 to 1, 't from 0 to 9, \\'x\\\\' from -1 to 1, 'dy' from -1 to 1" ]]
+    [ "${lines[2]}" = "ignored: 'cupboard' and 'frame\\''" ]
+    [[ ${lines[3]} == "3 bodies, "*" pairs of surfaces, "* ]]
+    head -c -32 other >told
+    # shellcheck disable=SC2059 # the digest becomes escapes
+    printf "$(sha256sum told | cut -c 1-64 | sed 's/../\\x&/g')" >>told
+    run -0 verify told
+    [[ ${lines[1]} == *" from t = 0 to 1, 't from 0 to 9, \\'x\\\\' from -1 to 1, 'dy' from -1 to 1" ]]
+    [[ ${lines[3]} == "3 bodies, "* ]]
 }
 
 @test "motions that both surfaces share are put back" {

@@ -32,11 +32,11 @@ END
     "$IMPINGE" solve arms.json --proof clear.proof
     run -0 verify clear.proof
     [ "${lines[0]}" = holds ]
-    [ "${lines[1]}" = "clear: no two points nearer than 0.005 from t = 0 to 1, a from -0.5 to 0.5, b from -0.5 to 0.5" ]
+    [ "${lines[1]}" = "clear: no two points nearer than 0.005 from t = 0 to 1, 'a' from -0.5 to 0.5, 'b' from -0.5 to 0.5" ]
     "$IMPINGE" clearance arms.json --tolerance 0.3 --proof distance.proof
     run -0 verify distance.proof --threads 2
     [ "${lines[0]}" = holds ]
-    [[ ${lines[2]} == "two points within 0.2"*" at t = 0, a = "*", b = "* ]]
+    [[ ${lines[2]} == "two points within 0.2"*" at t = 0, 'a' = "*", 'b' = "* ]]
     "$IMPINGE" clearance arms.json --require 0.15 --proof holds.proof
     run -0 verify holds.proof
     [[ ${lines[1]} == "holds: no two points nearer than 0.149"* ]]
@@ -48,8 +48,8 @@ END
     json '.verdict == "contact" and .t > 0.1'
     run -0 verify contact.proof
     [ "${lines[0]}" = holds ]
-    [[ ${lines[1]} == "contact: no two points nearer than 0.05 from t = 0 to 0.1"*", a from "* ]]
-    [[ ${lines[2]} == "two points within 0.1 at t = 0.1"*", a = "*", b = "* ]]
+    [[ ${lines[1]} == "contact: no two points nearer than 0.05 from t = 0 to 0.1"*", 'a' from "* ]]
+    [[ ${lines[2]} == "two points within 0.1 at t = 0.1"*", 'a' = "*", 'b' = "* ]]
     run -1 "$IMPINGE" clearance arms.json --require 0.15 --proof violated.proof
     run -0 verify violated.proof
     [[ ${lines[1]} == "violated: no two points nearer than 0 from "* ]]
@@ -98,7 +98,7 @@ sealed() {
     "$IMPINGE" pair 'sphere ! tolerance offset=0.01 angle=0.02 center=0,0,3' \
         'sphere center=2.2,0,0 ! rotate axis=1,0,0 rate=1' --gamma 1e-2 --proof t.proof
     run -0 verify t.proof --text
-    [[ $output == *"holds"*"tolerance#1 from "* ]]
+    [[ $output == *"holds"*"'tolerance#1' from "* ]]
     "$IMPINGE" clearance 'box ! tolerance offset=0.05 angle=0.1' 'box center=1.5,0,0' \
         --tolerance 0.3 --proof t.proof
     run -0 verify t.proof --text

@@ -140,4 +140,68 @@ static const claim_change arm_claims[] = {
     {"parameter 0 0.5 w\n", "", false}};
 enum { ARM_CLAIMS = sizeof arm_claims / sizeof *arm_claims };
 
+/* Two plates, 2 apart. Its tree says the axis, so that the kernel proves it as it is. */
+static inline certificate plates_made(void)
+{
+    static const char plates[] =
+        "impinge certificate 2\nprogram impinge 0\nverdict clear\napart 1\nfrom 0\nto 1\n"
+        "parameter 0 1 w\nwithin 3 at 0 0\npoint 0 0 0 0\npoint 1 0 0 0\n"
+        "body a\nshape 1 plate\nu in [-9, 0]; v in [0, 1]; u; v; 1\nsurface 0 0\n"
+        "body b\nshape 1 plate\nu in [-9, 9]; v in [-9, 9]; u; v; -1\nsurface 1 1\ntrees\n";
+    static const uint8_t tree[] = {0, 1, 0, 0, 5, 0, 0, 0, 0, 0x80, 1};
+    return made(plates, tree, sizeof tree);
+}
+
+/* Most of these are refused for how they are written, whatever they claim. The points of the
+ * plates, and what follows: */
+#define POINTS "within 3 at 0 0\npoint 0 0 0 0\npoint 1 0 0 0\nbody a\nshape 1 plate\nu in"
+static const claim_change plates_claims[] = {
+    {"apart 1\n", "apart 1\n", true},
+    {"apart 1\n", "apart 1\napart 1\n", false},
+    {"from 0\n", "from 0\nfrom 0\n", false},
+    {"to 1\n", "to 1\nto 1\n", false},
+    {"clear\n", "clear\nverdict clear\n", false},
+    {"trees\n", "trees 1\n", false},
+    {"plate\n", "plate clock 1\n", true},
+    {"plate\n", "plate clokc\n", false},
+    {"plate\n", "plate clokc 1\n", false},
+    {"plate\n", "plate clock 1 1\n", false},
+    {"0 0 0 0\n", "0 0 0 0 0\n", false},
+    /* nothing is nearer than 0 */
+    {"apart 1\n", "apart 0\n", false},
+    {"apart 1\n", "apart 1e-400\n", false},
+    {"clear\napart 1\n", "holds\napart 0\n", false},
+    {"clear\napart 1\n", "contact\napart 0\n", true},
+    {"clear\napart 1\n", "undecided\napart 0\n", true},
+    /* names */
+    {" w\n", " t\n", true},
+    {" w\n", " it's\\ \xc3\x9f\xc2\xa0\n", true},
+    {" w\n", " \xc2\x85\n", false},
+    {"body a\n", "body \xc2\x9bK\n", false},
+    {"u in [-9", "inf = 3; u in [-9", false},
+    {"u in [-9", "sin = 3; u in [-9", false},
+    {"u in [-9", "_a = 3; u in [-9", false},
+    {"u in [-9", "a_ = 3; u in [-a_*a_", true},
+    /* ranges */
+    {"u in", "t in [-inf, inf]; u in", true},
+    {"u in", "t in [-2*pi, inf ]; u in", true},
+    {"u in", "t in [-inf, inf]; t in [0, 1]; u in", false},
+    {POINTS, "body a\nshape 1 plate\nt in [inf, inf]; u in", false},
+    {POINTS, "body a\nshape 1 plate\nt in [-inf, -inf]; u in", false},
+    {"u in", "t in [-inf, inf + 0]; u in", false},
+    {"u in", "t in [-1/inf, 1]; u in", false},
+    {"u in", "t in [-inf, 1e308*10 - 1e308*10]; u in", false},
+    {"u in", "t in [-inf, 1e30 + 2 - 1e30]; u in", false},
+    {"[-9, 0]", "[-9, 1e30 + 0.1 - 1e30]", false},
+    {"[-9, 0]", "[-9, 1e-320]", true},
+    {"[-9, 0]", "[-9, pi/2 - 1]", true},
+    /* powers of numbers below 0, whose exponent is whole and not seen to be, or is not */
+    {"v; 1\n", "v; 1e13*(1e-13*u)^(1/3*3)\n", false},
+    {"v; 1\n", "v; 1e13*(1e-13*u)^(pi/pi)\n", false},
+    {"-9, 0]; v in [0, 1]; u; v; 1",
+     "-0x1p-41, 0]; v in [0, 1]; u; v; u^65*0x1p1000*0x1p1000*0x1p700", false},
+    {"v; 1\n", "v; (1 - u)^(1/3*3)\n", true}};
+#undef POINTS
+enum { PLATES_CLAIMS = sizeof plates_claims / sizeof *plates_claims };
+
 #endif

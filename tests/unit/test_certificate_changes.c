@@ -195,6 +195,21 @@ START_TEST(claims_about_all_values_of_parameters_hold_only_if_they_are_true)
 }
 END_TEST
 
+START_TEST(what_is_said_otherwise_is_refused)
+{
+    for (int k = 0; k < PLATES_CLAIMS; ++k) {
+        certificate c = plates_made();
+        statement s;
+        char fault[1400];
+        bool assumes;
+        replace(&c, plates_claims[k].from, plates_claims[k].to);
+        const bool good = verify(&c, EFFORT, &s, fault, &assumes);
+        ck_assert_msg(good == plates_claims[k].holds, "%d, %s: %s", k, plates_claims[k].to, fault);
+        statement_free(&s);
+    }
+}
+END_TEST
+
 /* --- Intervals -------------------------------------------------------------------------------- */
 
 /* An end, of any size, often one where rounding or overflow begins. */
@@ -251,4 +266,5 @@ END_TEST
 
 SUITE_MAIN("certificate_changes", claims_about_all_values_of_parameters_hold_only_if_they_are_true,
            every_kind_of_leaf_proves_what_is_true_and_refuses_what_is_false,
-           operations_in_doubles_contain_those_of_mpfi, no_change_makes_a_false_statement_hold)
+           operations_in_doubles_contain_those_of_mpfi, no_change_makes_a_false_statement_hold,
+           what_is_said_otherwise_is_refused)

@@ -48,7 +48,8 @@ char *bytes_line(bytes *in)
         const unsigned c = bytes_next(in);
         char *line = list;
         if (c == '\n') return line; /* room that was made is 0 */
-        if (bytes_are_good(in) && (c < ' ' || c == 127 || length == LONGEST))
+        const bool is_high = length > 0 && line[length - 1] == '\xc2' && c < 0xa0; /* UTF-8 */
+        if (bytes_are_good(in) && (c < ' ' || c == 127 || is_high || length == LONGEST))
             bytes_refuse(in, "a line is too long, or holds byte %u", c);
         line[length++] = (char)c;
     }
@@ -98,18 +99,16 @@ bool bytes_grow(bytes *in, void **list, size_t count, size_t size)
     (bytes_grow(IN, (void **)&(LIST), COUNT, sizeof *(LIST)) ? &(LIST)[(COUNT)++] : NULL)
 
 /* Reads the parts of a piece: of a shape, with finite ranges of u and v; of a map, of t alone. */
-static void read_piece(claim *c, bytes *in, bool is_map, piece *p)
+static void read_piece(bytes *in, bool is_map, piece *p)
 {
     char *line = bytes_line(in);
     const char *text = line, *why;
     while (text != NULL && bytes_are_good(in)) {
-        range said[EXPRESSION_VARIABLES];
+        range said[EXPRESSION_VARIABLES] = {{0, 0}};
         part *made = ADDED(in, p->parts, p->count);
         if (made == NULL) break;
         made->f = expression_read(&text, is_map ? "xyzt" : "uvt", said, &why);
         if (made->f == NULL) bytes_refuse(in, "%s", *line == '\0' ? "a type has no formula" : why);
-        if (made->f == NULL) break;
-        if (expression_size(made->f) > c->size) c->size = expression_size(made->f);
         for (int j = 0; j < 2 + is_map; ++j) {
             const bool no_lo = said[j].lo == -INFINITY, no_hi = said[j].hi == INFINITY;
             if (is_map ? !no_lo || !no_hi : no_lo || no_hi)
@@ -129,11 +128,12 @@ static void read_stage(claim *c, bytes *in, bool is_map, char **rest)
     if (count == 0) bytes_refuse(in, "a shape or map has no pieces");
     if (made == NULL) return;
     made->is_map = is_map;
-    if (*rest != NULL && strcmp(bytes_word(in, rest), "clock") == 0)
-        made->clock = bytes_whole(in, rest, c->clock_count);
+    const bool is_clocked = *rest != NULL;
+    if (is_clocked && strcmp(bytes_word(in, rest), "clock") != 0) bytes_refuse(in, "no 'clock'");
+    if (is_clocked) made->clock = bytes_whole(in, rest, c->clock_count);
     while (made->count < count && bytes_are_good(in)) {
         piece *p = ADDED(in, made->pieces, made->count);
-        if (p != NULL) read_piece(c, in, is_map, p);
+        if (p != NULL) read_piece(in, is_map, p);
     }
 }
 
@@ -194,6 +194,7 @@ static void read_points(claim *c, bytes *in, char **rest)
         c->points[k].surface = bytes_whole(in, &more, PIECES_MAX);
         c->points[k].piece = bytes_whole(in, &more, PIECES_MAX);
         for (int j = 0; j < 2; ++j) c->points[k].uv[j] = bytes_number(in, &more);
+        if (more != NULL) bytes_refuse(in, "a line 'point' is too long");
         free(line);
     }
     c->has_points = true;
@@ -207,39 +208,42 @@ static void read_ignored(claim *c, bytes *in, char **rest)
 
 static void read_verdict(claim *c, bytes *in, char **rest)
 {
-    static const char *const words[] = {"contact",   "violated", "clear",
-                                        "undecided", "holds",    "distance"};
+    static const char *const words[] = {"contact",  "violated", "undecided",
+                                        "distance", "clear",    "holds"};
     const char *word = bytes_word(in, rest);
+    if (c->verdict != NULL) bytes_refuse(in, "a second verdict");
     for (int k = 0; k < 6; ++k)
-        if (strcmp(word, words[k]) == 0) c->verdict = words[k], c->needs_points = k < 2;
+        if (strcmp(word, words[k]) == 0)
+            c->verdict = words[k], c->needs_points = k < 2, c->needs_gap = k >= 4;
 }
 
-static void skip(claim *c, bytes *in, char **rest) { (void)c, (void)in, *rest = NULL; }
-
-/* Reads a line; of two that differ the last one counts, and is printed. False: it is "trees". */
+/* Reads a line. False: it is "trees". */
 static bool read_line(claim *c, bytes *in, char *rest)
 {
-    static const char *const keys[] = {"verdict", "parameter", "within", "shape", "map",  "body",
-                                       "surface", "program",   "scene",  "type",  "file", "ignore"};
-    static void (*const read[])(claim *, bytes *, char **) = {
-        read_verdict, read_parameter, read_points, read_shape, read_map, read_body,
-        read_surface, skip,           skip,        skip,       skip,     read_ignored};
+    static const char *const keys[] = {"verdict", "parameter", "within",  "shape", "map",  "body",
+                                       "surface", "ignore",    "program", "scene", "type", "file"};
+    static void (*const read[sizeof keys / sizeof *keys])(claim *, bytes *, char **) = {
+        read_verdict, read_parameter, read_points,  read_shape, read_map,
+        read_body,    read_surface,   read_ignored, NULL}; /* what is left is passed over */
     const char *key = bytes_word(in, &rest);
     double *number = strcmp(key, "apart") == 0  ? &c->apart
                      : strcmp(key, "from") == 0 ? &c->clocks[0].all.lo
                      : strcmp(key, "to") == 0   ? &c->clocks[0].all.hi
                                                 : NULL;
     size_t k = 0, count = sizeof keys / sizeof *keys;
-    if (strcmp(key, "trees") == 0) return false;
+    if (strcmp(key, "trees") == 0 && rest == NULL) return false;
+    if (number != NULL && !isnan(*number)) bytes_refuse(in, "a second line '%s'", key);
     if (number != NULL) *number = bytes_number(in, &rest);
     while (number == NULL && k < count && strcmp(key, keys[k]) != 0) ++k;
-    if (number == NULL && k < count) read[k](c, in, &rest);
-    return (k < count && rest == NULL) || bytes_refuse(in, "a line '%.40s' is wrong", key);
+    if (number == NULL && k < count && read[k] != NULL) read[k](c, in, &rest);
+    return (k < count && (rest == NULL || read[k] == NULL)) ||
+           bytes_refuse(in, "a line '%.40s' is wrong", key);
 }
 
 static bool check(const claim *c, bytes *in)
 {
-    if (c->verdict == NULL || !(c->apart >= 0) || (c->needs_points && !c->has_points))
+    if (c->verdict == NULL || !(c->needs_gap ? c->apart > 0 : c->apart >= 0) ||
+        (c->needs_points && !c->has_points))
         bytes_refuse(in, "it has no verdict, points or distance");
     for (size_t k = 0; k < c->clock_count; ++k) {
         const range all = c->clocks[k].all;
@@ -263,9 +267,7 @@ bool claim_read(claim *c, bytes *in)
         line = bytes_line(in);
     } while (line != NULL && read_line(c, in, line));
     free(line);
-    c->value = malloc(c->size + 1);
-    if (c->value == NULL || (is_first && c->clock_count > 1))
-        bytes_refuse(in, "memory ran out, or a parameter is in format 1");
+    if (is_first && c->clock_count > 1) bytes_refuse(in, "a parameter is in format 1");
     return check(c, in);
 }
 
@@ -286,7 +288,6 @@ void claim_free(claim *c)
     free(c->surfaces);
     free(c->bodies);
     free(c->ignored);
-    free(c->value);
 }
 
 bool claim_ignores(const claim *c, size_t body, size_t other)

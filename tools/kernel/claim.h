@@ -80,7 +80,7 @@ typedef struct point {
 
 typedef struct claim {
     const char *verdict;
-    bool needs_points; /* by its verdict */
+    bool needs_points, needs_gap; /* by its verdict: APART is above 0 */
     double apart, within;
     clock_range clocks[CLAIM_CLOCKS];
     bool has_points;
@@ -90,8 +90,6 @@ typedef struct claim {
     surface *surfaces;
     size_t (*ignored)[2]; /* bodies */
     size_t clock_count, body_count, stage_count, surface_count, ignored_count;
-    size_t size;                   /* bytes of the values of an expression's steps, at most */
-    slope *value;                  /* room for them */
     range offset[SLOPE_VARIABLES]; /* of what is computed; slopes point to it */
 } claim;
 

@@ -28,7 +28,7 @@ typedef struct reader {
     const char *why; /* NULL: no fault; afterwards the text counts as ended */
     step steps[STEPS_MAX];
     int count, depth;
-    bool is_end; /* of a range, which may be infinite */
+    unsigned ranges; /* bit j: that of variable j is read */
     struct {
         char text[WORD];
         int step;
@@ -87,9 +87,9 @@ static bool take(reader *r, char sign)
 static bool take_word(reader *r, char word[WORD])
 {
     static const char signs[] = "0123456789_abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ";
-    const bool is_number = strchr("0123456789", peek(r)) != NULL;
+    const bool is_word = strchr("0123456789_", peek(r)) == NULL;
     const size_t length = strspn(r->at, signs);
-    if (length == 0 || length >= WORD || is_number) return false;
+    if (length == 0 || length >= WORD || !is_word) return false;
     memcpy(word, r->at, length);
     word[length] = '\0';
     r->at += length;
@@ -133,17 +133,6 @@ static int expand(reader *r, const char *text, const int *arguments)
     return x;
 }
 
-static int call(reader *r, const char *word, const int *x, int count)
-{
-    for (int k = 0; k < FUNCTIONS; ++k) {
-        if (strcmp(functions[k].name, word) != 0 || count != functions[k].count) continue;
-        if (functions[k].text != NULL) return expand(r, functions[k].text, x);
-        if (functions[k].binary != NULL) return join(r, functions[k].binary, x[0], x[1]);
-        return apply(r, (step){.unary = functions[k].unary, .a = x[0]});
-    }
-    return fail(r, "a formula has a function that is not known here");
-}
-
 static int read_call(reader *r, const char *word)
 {
     int x[ARGUMENTS_MAX] = {0}, count = 0;
@@ -151,7 +140,14 @@ static int read_call(reader *r, const char *word)
         if (count == ARGUMENTS_MAX) return fail(r, "a function has too many arguments");
         x[count++] = read_sum(r);
     } while (take(r, ','));
-    return take(r, ')') ? call(r, word, x, count) : fail(r, "a formula lacks ')'");
+    if (!take(r, ')')) return fail(r, "a formula lacks ')'");
+    for (int k = 0; k < FUNCTIONS; ++k) {
+        if (strcmp(functions[k].name, word) != 0 || count != functions[k].count) continue;
+        if (functions[k].text != NULL) return expand(r, functions[k].text, x);
+        if (functions[k].binary != NULL) return join(r, functions[k].binary, x[0], x[1]);
+        return apply(r, (step){.unary = functions[k].unary, .a = x[0]});
+    }
+    return fail(r, "a formula has a function that is not known here");
 }
 
 /* Returns the step that a name stands for; -1: none. */
@@ -162,7 +158,6 @@ static int find_name(reader *r, const char *word)
     if (variable != NULL) return (int)(variable - r->variables);
     for (int k = 0; k < r->name_count; ++k)
         if (strcmp(r->names[k].text, word) == 0) return r->names[k].step;
-    if (r->is_end && strcmp(word, "inf") == 0) return add_number(r, range_of(INFINITY));
     return strcmp(word, "pi") == 0 ? add_number(r, range_pi()) : -1;
 }
 
@@ -215,10 +210,11 @@ static int read_level(reader *r, int level)
 
 static int read_sum(reader *r) { return read_level(r, 0); }
 
-/* A name that is defined must not be known; a function is called by its name and '(' alone. */
 static void define(reader *r, const char *word)
 {
-    if (find_name(r, word) >= 0) fail(r, "a formula defines a name twice");
+    bool is_known = find_name(r, word) >= 0 || strcmp(word, "inf") == 0;
+    for (int k = 0; k < FUNCTIONS; ++k) is_known = is_known || strcmp(functions[k].name, word) == 0;
+    if (is_known) fail(r, "a formula defines a name that has a meaning");
     const int x = read_sum(r);
     if (r->name_count == NAMES_MAX) fail(r, "a formula defines too many names");
     if (r->why != NULL) return;
@@ -228,23 +224,29 @@ static void define(reader *r, const char *word)
 
 static range read_end(reader *r)
 {
-    r->is_end = true;
+    char word[WORD];
+    const char *from = r->at;
+    const double infinite = take(r, '-') ? -INFINITY : INFINITY;
+    if (take_word(r, word) && strcmp(word, "inf") == 0) return range_of(infinite);
+    r->at = from;
     const step *s = &r->steps[read_sum(r)];
-    r->is_end = false;
-    if (s->uses != 0) fail(r, "an end of a range has a variable in it");
+    const double size = fabs(s->number.lo);
+    if (s->uses != 0 || !(s->number.hi - s->number.lo <= 0x1p-44 * size && size < INFINITY))
+        fail(r, "an end of a range has a variable in it, or is not known well");
     return s->number;
 }
 
 static void read_range(reader *r, const char *word, range said[EXPRESSION_VARIABLES])
 {
     const char *variable = word[1] == '\0' ? strchr(r->variables, word[0]) : NULL;
-    range none = RANGE_ALL, *to = variable != NULL ? &said[variable - r->variables] : &none;
-    if (variable == NULL || !take(r, '[')) fail(r, "a range is of no variable, or lacks '['");
-    if (to->lo > -INFINITY || to->hi < INFINITY) fail(r, "a variable has two ranges");
-    to->lo = read_end(r).lo;
+    const size_t j = variable != NULL ? (size_t)(variable - r->variables) : 0;
+    if (variable == NULL || (r->ranges >> j & 1) != 0 || !take(r, '['))
+        fail(r, "a range is of no variable, or said twice, or lacks '['");
+    r->ranges |= 1u << j;
+    said[j].lo = read_end(r).lo;
     if (!take(r, ',')) fail(r, "a range lacks ','");
-    to->hi = read_end(r).hi;
-    if (!take(r, ']') || !(to->lo <= to->hi)) fail(r, "a range is empty, or lacks ']'");
+    said[j].hi = read_end(r).hi;
+    if (!take(r, ']') || !(said[j].hi - said[j].lo >= 0)) fail(r, "a range is empty, or lacks ']'");
 }
 
 /* Reads a definition or a range; false: a coordinate, of which nothing is read. */
@@ -297,10 +299,9 @@ expression *expression_read(const char **text, const char *variables,
     return e;
 }
 
-size_t expression_size(const expression *e) { return (size_t)e->count * sizeof(slope); }
-
-void expression_compute(const expression *e, const slope *variables, slope *value, slope out[3])
+void expression_compute(const expression *e, const slope *variables, slope out[3])
 {
+    static slope value[STEPS_MAX];
     for (int k = 0; k < e->count; ++k) {
         const step *s = &e->steps[k];
         if (s->binary != NULL)

@@ -8,7 +8,7 @@
 /* A formula: three expressions in up to four variables
  * ====================================================
  *   part     = { item ";" } sum ";" sum ";" sum
- *   item     = name "=" sum | variable "in" "[" sum "," sum "]"       an end may be inf or -inf
+ *   item     = name "=" sum | variable "in" "[" end "," end "]"     end = sum | "inf" | "-inf"
  *   sum      = product { ("+" | "-") product }
  *   product  = signed { ("*" | "/") signed }
  *   signed   = { "+" | "-" } operand [ "^" signed ]
@@ -25,11 +25,7 @@ typedef struct expression expression;
 expression *expression_read(const char **text, const char *variables,
                             range said[EXPRESSION_VARIABLES], const char **why);
 
-/* Returns the bytes that the values of its steps need. */
-size_t expression_size(const expression *e);
-
-/* Computes the three from slopes of the variables, with room for the values of all steps. `out`
- * may be the variables. */
-void expression_compute(const expression *e, const slope *variables, slope *value, slope out[3]);
+/* Computes the three from slopes of the variables, which `out` may be. Not thread-safe. */
+void expression_compute(const expression *e, const slope *variables, slope out[3]);
 
 #endif

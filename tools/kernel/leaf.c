@@ -46,7 +46,7 @@ static bool compute(visit *v)
     for (size_t k = 0; k < v->p->side[v->side]->count; ++k) {
         const int clock = 2 + (int)stage_of(v->p, v->side, k)->clock;
         x[k == 0 ? 2 : 3] = slope_variable(clock, v->all[clock], v->p->of->offset);
-        expression_compute(v->parts[k]->f, x, v->p->of->value, x);
+        expression_compute(v->parts[k]->f, x, x);
         if (x[0].is_undefined || x[1].is_undefined || x[2].is_undefined)
             return v->p->why = "a formula may have no value there", false;
     }
@@ -121,12 +121,11 @@ static void add_points(void *context, const slope x[3], bool whole)
 bool leaf_holds(pair *p, const cell *c, const double n[3])
 {
     bound a = {.n = {n[0], n[1], n[2]}}, b = a;
-    range length = range_of(0);
     p->why = NULL;
     if (p->of->apart == 0) return true; /* no distance is below 0 */
     if (n[0] == 0 && n[1] == 0 && n[2] == 0) return p->why = "it has no axis", false;
     if (!leaf_visit(p, c, 0, add_points, &a) || !leaf_visit(p, c, 1, add_points, &b)) return false;
-    for (int i = 0; i < 3; ++i) length = range_hypot(length, range_of(n[i]));
+    const range length = range_hypot(range_hypot(range_of(n[0]), range_of(n[1])), range_of(n[2]));
     const double least = range_mul(length, range_of(p->of->apart)).hi;
     range gap = range_sub(b.p, a.p);
     for (size_t k = 0; k < p->of->clock_count; ++k)

@@ -10,33 +10,34 @@
 
 enum { HOLDS, REFUSED, USAGE };
 
-static void say(const claim *c, const trees *w)
+/* Prints the name of a parameter or body, which cannot end its quotes. */
+static void say_name(const char *before, const char *name)
 {
-    printf("holds\n%s: no two points nearer than %.17g", c->verdict, c->apart);
-    for (size_t k = 0; k < c->clock_count; ++k)
-        printf(", %s from %.17g to %.17g", k == 0 ? "t" : c->clocks[k].name, c->clocks[k].all.lo,
-               c->clocks[k].all.hi);
-    if (c->has_points) printf("\ntwo points within %.17g at t", c->within);
-    for (size_t k = 0; k < c->clock_count && c->has_points; ++k)
-        printf("%s%s = %.17g", k == 0 ? "" : ", ", k == 0 ? "" : c->clocks[k].name,
-               c->clocks[k].at);
-    for (size_t k = 0; k < c->ignored_count; ++k)
-        printf("\nignored: '%s' and '%s'", c->bodies[c->ignored[k][0]],
-               c->bodies[c->ignored[k][1]]);
-    printf("\n%llu pairs of surfaces, %llu leaves\n", (unsigned long long)w->pairs,
-           (unsigned long long)w->leaves);
+    printf("%s'", before);
+    for (; *name != '\0'; ++name) printf(strchr("'\\", *name) ? "\\%c" : "%c", *name);
+    printf("'");
 }
 
-static int answer(FILE *file)
+static void say(const claim *c, const trees *w)
 {
-    bytes in = {.file = file};
-    claim c;
-    trees w = {.in = &in, .of = &c};
-    const bool good = claim_read(&c, &in) && trees_hold(&w);
-    if (good) say(&c, &w);
-    if (!good) printf("refused at byte %llu: %s\n", (unsigned long long)in.at, in.fault);
-    claim_free(&c);
-    return good ? HOLDS : REFUSED;
+    const clock_range *t = &c->clocks[0];
+    printf("holds\n%s: no two points nearer than %.17g, t from %.17g to %.17g", c->verdict,
+           c->apart, t->all.lo, t->all.hi);
+    for (size_t k = 1; k < c->clock_count; ++k) {
+        say_name(", ", c->clocks[k].name);
+        printf(" from %.17g to %.17g", c->clocks[k].all.lo, c->clocks[k].all.hi);
+    }
+    if (c->has_points) printf("\ntwo points within %.17g at t = %.17g", c->within, t->at);
+    for (size_t k = 1; k < c->clock_count && c->has_points; ++k) {
+        say_name(", ", c->clocks[k].name);
+        printf(" = %.17g", c->clocks[k].at);
+    }
+    for (size_t k = 0; k < c->ignored_count; ++k) {
+        say_name("\nignored: ", c->bodies[c->ignored[k][0]]);
+        say_name(" and ", c->bodies[c->ignored[k][1]]);
+    }
+    printf("\n%zu bodies, %llu pairs of surfaces, %llu leaves\n", c->body_count,
+           (unsigned long long)w->pairs, (unsigned long long)w->leaves);
 }
 
 int main(int argc, char **argv)
@@ -48,8 +49,17 @@ int main(int argc, char **argv)
                 "Exit status: 0 holds, 1 refused, 2 usage or no file\n");
         return USAGE;
     }
-    FILE *file = strcmp(argv[1], "-") == 0 ? stdin : fopen(argv[1], "rb");
-    if (file == NULL) perror(argv[1]);
-    const int status = file != NULL ? answer(file) : USAGE;
-    return fflush(stdout) == 0 ? status : USAGE;
+    bytes in = {.file = strcmp(argv[1], "-") == 0 ? stdin : fopen(argv[1], "rb")};
+    claim c;
+    trees w = {.in = &in, .of = &c};
+    if (in.file == NULL) {
+        perror(argv[1]);
+        return USAGE;
+    }
+    const bool good = claim_read(&c, &in) && trees_hold(&w);
+    if (good) say(&c, &w);
+    if (!good) printf("refused at byte %llu: %s\n", (unsigned long long)in.at, in.fault);
+    claim_free(&c);
+    if (fflush(stdout) != 0) return USAGE;
+    return good ? HOLDS : REFUSED;
 }

@@ -21,12 +21,6 @@ static range taken(mpfi_srcptr x)
     return (range){mpfr_get_d(&x->left, MPFR_RNDD), mpfr_get_d(&x->right, MPFR_RNDU)};
 }
 
-static void give(mpfi_ptr to, range x)
-{
-    mpfr_set_d(&to->left, x.lo, MPFR_RNDD);
-    mpfr_set_d(&to->right, x.hi, MPFR_RNDU);
-}
-
 /* Numbers of MPFI: two operands, then the result. */
 static mpfi_t *numbers(void)
 {
@@ -41,7 +35,7 @@ typedef int binary(mpfi_ptr, mpfi_srcptr, mpfi_srcptr);
 static range by(unary *f, range x)
 {
     mpfi_t *n = numbers();
-    give(n[0], x);
+    mpfi_interv_d(n[0], x.lo, x.hi);
     f(n[2], n[0]);
     return taken(n[2]);
 }
@@ -49,8 +43,8 @@ static range by(unary *f, range x)
 static range by_both(binary *f, range x, range y)
 {
     mpfi_t *n = numbers();
-    give(n[0], x);
-    give(n[1], y);
+    mpfi_interv_d(n[0], x.lo, x.hi);
+    mpfi_interv_d(n[1], y.lo, y.hi);
     f(n[2], n[0], n[1]);
     return taken(n[2]);
 }
@@ -178,12 +172,11 @@ static slope composed(const slope *x, range v, range c, range derivative, bool i
 
 slope slope_abs(const slope *x)
 {
-    const slope zeros = slope_fixed(zero), minus = slope_less(&zeros, x);
-    slope r = slope_greatest(x, &minus);
+    const range sign = x->v.lo >= 0 ? one : x->v.hi <= 0 ? range_of(-1) : (range){-1, 1};
+    const range v = range_greatest(x->v, range_neg(x->v));
+    const range c = range_greatest(x->c, range_neg(x->c));
+    slope r = composed(x, v, c, sign, true);
     if (r.v.lo < 0) r.v.lo = 0;
-    if (x->v.lo < 0 && x->v.hi > 0)
-        for (int j = 0; j < SLOPE_VARIABLES; ++j)
-            if (slope_has(x, j)) r.s[j] = range_mul((range){-1, 1}, x->s[j]);
     return r;
 }
 
@@ -219,11 +212,12 @@ static slope whole_power(const slope *x, int k)
     return r;
 }
 
-/* x^k for x >= 0. A number below 0 by at most 2^-40 counts as 0, unless all of x is below: rounding
- * takes 1 - u^2 there (core/PROOF.md, section 11). Powers up to 1 have kinks there. */
+/* x^k for x >= 0. What is below 0 by at most 2^-40, as rounding takes 1 - u^2, counts as 0 unless
+ * all of x is (core/PROOF.md, section 11), or k may be whole. Powers up to 1 have kinks there. */
 static slope real_power(const slope *x, range k)
 {
-    const bool is_total = x->v.lo > 0 || (k.lo > 0 && x->v.lo >= -0x1p-40 && x->v.hi >= 0);
+    const bool may_be_0 = x->v.lo >= -0x1p-40 && x->v.hi >= 0 && floor(k.hi) < k.lo;
+    const bool is_total = x->v.lo > 0 || (k.lo > 0 && (x->v.lo == 0 || may_be_0));
     const range less = range_power(x->v, range_sub(k, one));
     const range derivative = x->v.lo < 0 && !(k.lo > 1) ? RANGE_ALL : range_mul(k, less);
     return composed(x, range_power(x->v, k), range_power(x->c, k), derivative, is_total);

@@ -14,7 +14,7 @@ static void define(reader *r, const char *word)
 {
     const bool is_variable = word[1] == '\0' && strchr(r->scope->variables, word[0]) != NULL;
     if (is_variable || reader_is_function(word) || reader_find_defined(r, word) != NULL ||
-        strspn(word, "0123456789_") > 0)
+        strspn(word, "0123456789_") > 0 || strcmp(word, "inf") == 0)
         reader_fail(r, "'%s' cannot be defined: it %s", word,
                     is_variable ? "is a variable"
                                 : "has a meaning already, or begins with no letter");
@@ -34,7 +34,8 @@ static void define(reader *r, const char *word)
     r->defined[r->defined_count++].step = value;
 }
 
-/* One end of a range, whose steps hold no variable. */
+/* One end of a range, whose steps hold no variable. The domain is known as well as its ends are:
+ * from differences of large numbers it could be any. */
 static bool read_end(reader *r, ld_interval *end)
 {
     bool is_negative = false;
@@ -50,6 +51,8 @@ static bool read_end(reader *r, ld_interval *end)
     if (r->fault[0] != '\0') return false;
     if (!formula_constant(r->f, value, end))
         reader_fail(r, "an end of a range has variables in it, or no value");
+    else if (!(end->hi - end->lo <= 0x1p-44 * proof_size(end->lo) && isfinite(end->lo)))
+        reader_fail(r, "an end of a range is not known well");
     return r->fault[0] == '\0';
 }
 
@@ -66,7 +69,7 @@ static void read_range(reader *r, const char *word, formula_range *ranges)
     if (!reader_take(r, '[') || !read_end(r, &range->lo) || !reader_take(r, ',') ||
         !read_end(r, &range->hi) || !reader_take(r, ']'))
         reader_fail(r, "expected a range, [LO, HI]");
-    else if (range->lo.lo > range->hi.hi)
+    else if (!(range->hi.hi - range->lo.lo >= 0)) /* nor from inf to inf */
         reader_fail(r, "the range of %s ends before it begins", word);
 }
 

@@ -40,6 +40,14 @@ static void say_count(const char *one, const char *many, uint64_t n, const char 
     printf("%llu %s%s", (unsigned long long)n, n == 1 ? one : many, rest);
 }
 
+/* Prints the name of a parameter, which cannot end its quotes. */
+static void say_name(const char *name)
+{
+    printf(", '");
+    for (; *name != '\0'; ++name) printf(strchr("'\\", *name) ? "\\%c" : "%c", *name);
+    printf("'");
+}
+
 static int report(const request *asked, const statement *s, const outcome *all)
 {
     if (all->refused) {
@@ -54,17 +62,21 @@ static int report(const request *asked, const statement *s, const outcome *all)
     printf("%s: no two points nearer than %s", s->verdict, exact(s->apart).text);
     for (size_t k = 0; k < s->clock_count; ++k) {
         if (k == 0) printf(" from t = %s", exact(s->clocks[0].lo).text);
-        if (k > 0) printf(", %s from %s", s->clocks[k].name, exact(s->clocks[k].lo).text);
+        if (k > 0) {
+            say_name(s->clocks[k].name);
+            printf(" from %s", exact(s->clocks[k].lo).text);
+        }
         printf(" to %s", exact(s->clocks[k].hi).text);
     }
     if (s->has_points) printf("\ntwo points within %s at t", exact(s->within).text);
     for (size_t k = 0; k < s->clock_count && s->has_points; ++k) {
-        if (k > 0) printf(", %s", s->clocks[k].name);
+        if (k > 0) say_name(s->clocks[k].name);
         printf(" = %s", exact(s->clocks[k].at).text);
     }
     printf("\n");
     if (s->ignored_count > 0)
         say_count("ignored pair", "ignored pairs", s->ignored_count, " of bodies\n");
+    say_count("body", "bodies", s->body_count, ", ");
     say_count("pair", "pairs", all->pairs, " of surfaces, ");
     say_count("leaf", "leaves", all->leaves, ", ");
     say_count("test", "tests", all->tests, "\n");

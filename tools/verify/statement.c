@@ -119,12 +119,13 @@ static void read_within(statement *s, input *in, char **rest)
 
 enum { KEY_APART = 1, KEY_FROM = 2, KEY_TO = 4, KEYS_NEEDED = 7 };
 
-/* The verdicts, and whether a claim with this verdict must name two points. */
+/* The verdicts, and whether a claim with this verdict must name two points, or a distance above 0:
+ * nothing is nearer than 0. */
 static const struct {
     const char *word;
-    bool has_points;
-} verdicts[] = {{"clear", false},    {"undecided", false}, {"holds", false},
-                {"distance", false}, {"contact", true},    {"violated", true}};
+    bool has_points, has_distance;
+} verdicts[] = {{"clear", false, true},     {"undecided", false, false}, {"holds", false, true},
+                {"distance", false, false}, {"contact", true, false},    {"violated", true, false}};
 
 static int compare_names(const void *x, const void *y)
 {
@@ -151,10 +152,11 @@ static bool check_claim(const statement *s, input *in, unsigned keys)
     if (input_is_refused(in)) return false;
     for (size_t k = 0; k < sizeof verdicts / sizeof *verdicts; ++k)
         known = known || (strcmp(verdicts[k].word, s->verdict) == 0 &&
-                          (s->has_points || !verdicts[k].has_points));
+                          (s->has_points || !verdicts[k].has_points) &&
+                          (s->apart > 0 || !verdicts[k].has_distance));
     if (keys != KEYS_NEEDED || !(s->apart >= 0) || !(s->clocks[0].lo <= s->clocks[0].hi))
         return input_refuse(in, "it says nothing of 'apart', 'from' and 'to'");
-    if (!known) return input_refuse(in, "it has no verdict, or no points for it");
+    if (!known) return input_refuse(in, "it has no verdict, or no points or distance for it");
     return check_names(s, in);
 }
 
