@@ -110,7 +110,7 @@ static double greatest_distance(const swept_box *a, const swept_box *b)
     double square = 0;
     for (int i = 0; i < 3; ++i) {
         const double up = b->hi[i] - a->lo[i], down = a->hi[i] - b->lo[i];
-        square += up > down ? up * up : down * down;
+        square += isnan(up) || isnan(down) ? NAN : up > down ? up * up : down * down;
     }
     return sqrt(square);
 }
