@@ -125,12 +125,16 @@ static void check_answer(uint64_t *r, const imp_scene *scene, int kind, double l
         check_witness(scene, found, &c->a, &c->b, c->t, c->gamma, text);
 }
 
+/* Scenes of each loop. With fewer, as in builds with sanitizers, nothing is asked of how much they
+ * prove, which says something of many scenes only. */
+enum { SCENES = 18, STRAINED_SCENES = 12 };
+
 START_TEST(no_pose_that_a_descent_finds_is_nearer_than_a_proved_bound)
 {
     uint64_t random = suite_seed() + 7919 * (uint64_t)_i;
     static told_boxes boxes;
     static scene_writer w;
-    const int scenes = suite_times(18);
+    const int scenes = suite_times(SCENES);
     size_t proved = 0;
     for (int n = 0; n < scenes; ++n) {
         const int kind = n % KINDS;
@@ -149,7 +153,7 @@ START_TEST(no_pose_that_a_descent_finds_is_nearer_than_a_proved_bound)
         proved += boxes.seen;
         imp_scene_free(scene);
     }
-    ck_assert_uint_gt(proved, (size_t)scenes); /* the test tries something */
+    if (scenes >= SCENES) ck_assert_uint_gt(proved, (size_t)scenes); /* the test tries something */
     if (getenv("IMPINGE_TEST_COUNT") != NULL)
         printf("%d scenes, %zu boxes proved\n", scenes, proved);
 }
@@ -174,7 +178,7 @@ START_TEST(the_most_that_few_boxes_prove_is_kept_by_all_poses)
 {
     uint64_t random = suite_seed() + 104729 * (uint64_t)(_i + 1);
     static scene_writer w;
-    const int scenes = suite_times(12);
+    const int scenes = suite_times(STRAINED_SCENES);
     int counted = 0, tight = 0;
     for (int n = 0; n < scenes; ++n) {
         double least;
@@ -191,7 +195,7 @@ START_TEST(the_most_that_few_boxes_prove_is_kept_by_all_poses)
         if (least > 1e-3) counted += 1, tight += lo > 0.8 * least;
         imp_scene_free(scene);
     }
-    ck_assert_int_ge(3 * tight, counted);
+    if (scenes >= STRAINED_SCENES) ck_assert_int_ge(3 * tight, counted);
     if (getenv("IMPINGE_TEST_COUNT") != NULL)
         printf("%d scenes, 0.8 of the least distance proved of %d\n", counted, tight);
 }
