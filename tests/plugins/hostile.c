@@ -57,10 +57,10 @@ static void *sleep_on(void *unused)
     return unused;
 }
 
-static void leave_thread(void)
+static void leave_thread(void *run(void *))
 {
     pthread_t thread;
-    if (pthread_create(&thread, NULL, sleep_on, NULL) == 0) pthread_detach(thread);
+    if (pthread_create(&thread, NULL, run, NULL) == 0) pthread_detach(thread);
 }
 
 /* Crashes when the callback that started it has returned, and waits in the next one. */
@@ -73,23 +73,11 @@ static void *crash_later(void *unused)
     return unused;
 }
 
-static void leave_crashing_thread(void)
-{
-    pthread_t thread;
-    if (pthread_create(&thread, NULL, crash_later, NULL) == 0) pthread_detach(thread);
-}
-
 /* Crashes when the plugin's code is no longer there. */
 static void *run_on(void *unused)
 {
     for (;;) sched_yield();
     return unused;
-}
-
-static void leave_running_thread(void)
-{
-    pthread_t thread;
-    if (pthread_create(&thread, NULL, run_on, NULL) == 0) pthread_detach(thread);
 }
 
 static void wait_for_crash(void)
@@ -183,7 +171,7 @@ static void change_environment(const char *sin)
     if (strcmp(sin, "no_stack") == 0) limit(RLIMIT_STACK, 1 << 13);
     if (strcmp(sin, "locale") == 0) setlocale(LC_ALL, "");
     if (strcmp(sin, "uselocale") == 0) uselocale(newlocale(LC_ALL_MASK, "C.UTF-8", (locale_t)0));
-    if (strcmp(sin, "thread") == 0) leave_thread();
+    if (strcmp(sin, "thread") == 0) leave_thread(sleep_on);
     errno = strcmp(sin, "errno") == 0 ? EDOM : error;
 }
 
@@ -205,8 +193,8 @@ static void commit(const char *sin)
     if (strcmp(sin, "spin") == 0)
         for (;;) continue; /* no compiler may leave out a loop whose condition is constant */
     if (strcmp(sin, "fork") == 0) fork();
-    if (strcmp(sin, "later") == 0) leave_crashing_thread();
-    if (strcmp(sin, "unloaded") == 0) leave_running_thread();
+    if (strcmp(sin, "later") == 0) leave_thread(crash_later);
+    if (strcmp(sin, "unloaded") == 0) leave_thread(run_on);
     if (strcmp(sin, "thread_data") == 0) leave_thread_data();
     if (strcmp(sin, "longjmp") == 0) jump();
     if (strcmp(sin, "throw") == 0 && hostile_throw != NULL) hostile_throw();
