@@ -233,6 +233,10 @@ points() {
     run -3 --separate-stderr "$IMPINGE" pair 'mesh file=long.obj' sphere --max-seconds 0.001 \
         --isolate all --json
     json '.error | contains("max_seconds is not enough to read this")'
+    mesh_scene part.obj >scene.json
+    run -3 --separate-stderr "$IMPINGE" info scene.json --max-seconds 1e-9
+    [[ -z $output && $stderr == *"--max-seconds was over before it was known whether "* ]]
+    run -0 "$IMPINGE" info scene.json --max-seconds 100
 }
 
 @test "the text of a scene counts against --max-bytes, and what is parsed of it" {

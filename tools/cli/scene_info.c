@@ -4,9 +4,11 @@
 
 #include "tools/cli/scene_info.h"
 
+#include <math.h>
 #include <stdio.h>
 #include <string.h>
 
+#include "core/common/clock.h"
 #include "tools/cli/interrupt.h"
 #include "tools/cli/output.h"
 #include "tools/cli/query.h"
@@ -31,10 +33,10 @@ size_t scene_info_pieces(const imp_scene *scene, size_t body)
     return count;
 }
 
+/* `context`: when to end, a double on clock_seconds' clock. */
 static bool goes_on(void *context)
 {
-    (void)context;
-    return !interrupt_came();
+    return !interrupt_came() && clock_seconds() < *(const double *)context;
 }
 
 static bool has_place(const imp_closure *c)
@@ -128,11 +130,18 @@ static exit_status print_bodies(const imp_scene *scene, const arguments *args, j
     imp_options options = {.struct_size = (uint32_t)sizeof options};
     if (imp_options_get_default(scene, &options, &error) != IMP_SUCCESS)
         return complain_of(&error, args->verb->name);
+    const double limit = query_options(scene, args).max_seconds;
+    double until = limit > 0 ? clock_seconds() + limit : INFINITY;
     for (size_t body = 0; body < imp_scene_body_count(scene); ++body) {
         imp_closure c = {.struct_size = (uint32_t)sizeof c};
-        if (imp_scene_get_closure(scene, body, options.t_start, options.gamma, NULL, goes_on, NULL,
-                                  &c, &error) != IMP_SUCCESS)
+        if (imp_scene_get_closure(scene, body, options.t_start, options.gamma, NULL, goes_on,
+                                  &until, &c, &error) != IMP_SUCCESS)
             return complain_of(&error, args->verb->name);
+        if (c.verdict == IMP_CLOSURE_STOPPED && !interrupt_came())
+            return complain(EXIT_UNDECIDED, args->verb->name,
+                            "--max-seconds was over before it was known whether '%s' is closed; "
+                            "allow more (0: no limit)",
+                            imp_scene_body_name(scene, body));
         if (list == NULL)
             print_body(scene, body, &c);
         else if (json_array_append_new(list, body_json(scene, body, &c)) != 0)

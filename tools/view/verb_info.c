@@ -204,6 +204,10 @@ static const option info_options[] = {
      .kind = OPTION_TEXT,
      .argument = "FILE",
      .help = "draw the example into this file, as `impinge view` does"},
+    {.name = "max-seconds",
+     .kind = OPTION_NUMBER,
+     .argument = "S",
+     .help = "read a scene and test its bodies for at most S seconds; 0: no limit (0)"},
     {.name = NULL}};
 
 static const option *const tables[] = {info_options, options_registry, options_always, NULL};
