@@ -579,7 +579,8 @@ noinst_HEADERS += \
     tests/support/sphere_scenes.h \
     tests/support/suite.h \
     tests/support/survey_helpers.h \
-    tests/support/survey_scenes.h
+    tests/support/survey_scenes.h \
+    tests/support/told_boxes.h
 noinst_HEADERS += tests/plugins/mistakes.h tests/plugins/pipe.h tests/plugins/slab.h tests/plugins/slack_net.h tests/plugins/stack.h \
     tests/support/model_value.h
 

@@ -20,6 +20,12 @@ double survey_distance_enough(const imp_survey *s)
     return upper > required && kept > narrow && kept <= upper ? kept : narrow;
 }
 
+double survey_distance_touching(const imp_survey *s)
+{
+    const double required = s->question.clearance.required, gamma = s->question.gamma;
+    return required > 0 && required < gamma ? required : gamma;
+}
+
 static bool note_nearest(imp_survey *s, const survey_pair *pair, const double *values,
                          const imp_clearance *found)
 {
@@ -40,16 +46,48 @@ static void settle(imp_survey *s, const survey_box *box)
                       IMP_VERDICT_CLEAR, box->key);
 }
 
+static const double LEAST_TOLERANCE = 1e-9;      /* that a query takes */
+static const double DECIDING_TOLERANCE = 2.5e-7; /* a quarter of what tolerances_nearly leaves */
+
+/* Whether a box may be halved whose parameters shift the bodies by this. */
+static bool is_divisible(double total) { return total > 4 * SURFACE_STILL; }
+
+static bool is_requirement_open(const imp_survey *s)
+{
+    const double required = s->question.clearance.required;
+    return required > 0 && s->best.distance > required;
+}
+
 /* Returns the tolerance of the bracket at the middle. A bracket much narrower than the shift gains
- * nothing; 1e-9 is the least tolerance that a query takes. Any other is sound. */
+ * nothing. Where a distance is required, small boxes have brackets that decide. Any tolerance is
+ * sound. */
 static double tolerance_of(const imp_survey *s, double total)
 {
-    const double own = 0.5 * s->question.clearance.tolerance, least = own > 1e-9 ? own : 1e-9,
-                 most = 0.25;
-    if (!(total > 4 * SURFACE_STILL)) return least; /* no parameter can be halved */
+    const double own = 0.5 * s->question.clearance.tolerance, most = 0.25;
+    const double usual = own > LEAST_TOLERANCE ? own : LEAST_TOLERANCE;
+    if (!is_divisible(total)) return usual;
+    const double least =
+        is_requirement_open(s) && DECIDING_TOLERANCE < usual ? DECIDING_TOLERANCE : usual;
     const double wanted =
         s->best.distance < INFINITY ? 0.5 * total / (s->best.distance + total) : most;
     return wanted > least ? wanted : least;
+}
+
+/* Returns the next tolerance of the bracket at the middle of a box that cannot be halved, where the
+ * last one left the requirement undecided with this upper bound.
+ *
+ * Lemma. Let D be the distance required and h half way from (1 - 1e-6) D, the distance that is
+ * enough, to D. A bracket ends with a lower bound of at least (1 - R) of its upper one. With R =
+ * 1 - h / upper, it is at least h if the upper bound stays as it is; with R = 0.25e-6, it is above
+ * h for any upper bound above D. An upper bound of at most D violates the requirement. So two more
+ * brackets decide, and what is between h and the distance that is enough covers a shift of
+ * 4 SURFACE_STILL. */
+static double tolerance_deciding(const imp_survey *s, double before, double upper)
+{
+    const double required = s->question.clearance.required;
+    const double wanted = 1 - (0.5 * required + 0.5 * tolerances_nearly(required)) / upper;
+    const bool is_first = before >= 0.5 * s->question.clearance.tolerance;
+    return is_first && wanted > DECIDING_TOLERANCE && wanted < before ? wanted : DECIDING_TOLERANCE;
 }
 
 /* --- Nearer values ---------------------------------------------------------------------------- */
@@ -176,23 +214,46 @@ static imp_code prove_enough(imp_survey *s, survey_box *box, imp_scene *scene,
     }
 }
 
-static imp_code measure_middle(imp_survey *s, survey_box *box, imp_scene *scene, double total,
-                               box_state *state, imp_error *error)
+/* Asks for the bracket at the middle; *is_nearer: its points are the nearest so far. */
+static imp_code ask_middle(imp_survey *s, survey_box *box, imp_scene *scene, double total,
+                           double tolerance, imp_clearance *found, bool *is_nearer,
+                           imp_error *error)
 {
     const double enough = survey_distance_enough(s);
     const double within = enough < INFINITY ? sum_upper(enough, total) : 0;
-    imp_clearance found;
-    const imp_code code = box_run_distance(s, box, scene, box_times(s, box), within,
-                                           tolerance_of(s, total), &found, error);
+    const imp_code code =
+        box_run_distance(s, box, scene, box_times(s, box), within, tolerance, found, error);
     if (code != IMP_SUCCESS) return code;
-    const double lower = total > 0 ? difference_lower(found.lower, total) : found.lower;
+    const double lower = total > 0 ? difference_lower(found->lower, total) : found->lower;
     survey_proof_note(s, -INFINITY, lower);
     if (lower > box->key) box->key = lower;
-    const survey_pair *pair = &s->pairs.at[box->pair];
-    const bool is_nearer = note_nearest(s, pair, s->box.middle, &found);
+    *is_nearer = note_nearest(s, &s->pairs.at[box->pair], s->box.middle, found);
+    return IMP_SUCCESS;
+}
+
+/* Whether only a narrower bracket at the middle can tell if the box is as far as required. */
+static bool must_narrow(const imp_survey *s, const survey_box *box, double total, double tolerance)
+{
+    return is_requirement_open(s) && !is_divisible(total) && tolerance > DECIDING_TOLERANCE &&
+           !(box->key >= survey_distance_enough(s));
+}
+
+static imp_code measure_middle(imp_survey *s, survey_box *box, imp_scene *scene, double total,
+                               box_state *state, imp_error *error)
+{
+    const bool is_moved = total > 0 && !box_is_unmoved(&s->pairs.at[box->pair]);
+    double tolerance = tolerance_of(s, total);
+    imp_clearance found;
+    bool is_nearer;
+    imp_code code = ask_middle(s, box, scene, total, tolerance, &found, &is_nearer, error);
+    while (code == IMP_SUCCESS && !box_is_limit(found.reason) &&
+           must_narrow(s, box, total, tolerance)) {
+        tolerance = tolerance_deciding(s, tolerance, found.upper);
+        code = ask_middle(s, box, scene, total, tolerance, &found, &is_nearer, error);
+    }
+    if (code != IMP_SUCCESS) return code;
     if (box_must_end(s, found.reason)) return *state = BOX_WAITING, IMP_SUCCESS;
-    if (!is_nearer || !(total > 0) || box_is_unmoved(pair)) return IMP_SUCCESS;
-    return descend(s, pair, &found, state, error);
+    return is_nearer && is_moved ? descend(s, &s->pairs.at[box->pair], &found, state, error) : code;
 }
 
 static imp_code measure_distance(imp_survey *s, survey_box *box, const box_bounds *bounds,

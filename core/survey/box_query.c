@@ -202,8 +202,11 @@ imp_code box_run_distance(imp_survey *s, const survey_box *proved, imp_scene *sc
                           imp_error *error)
 {
     const imp_options options = options_of_query(s, times.start, times.end, 0);
+    const double required = s->question.clearance.required;
     imp_clearance_options asked = imp_clearance_options_default();
-    asked.within = within;
+    if (required > 0 && required < options.gamma)
+        asked.required = required; /* not to end at gamma */
+    asked.within = within > 0 && within < asked.required ? asked.required : within;
     asked.tolerance = tolerance;
     *answer = (imp_clearance){.struct_size = (uint32_t)sizeof *answer};
     imp_query *query = imp_clearance_new(scene, &options, &asked, error);

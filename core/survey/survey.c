@@ -232,7 +232,8 @@ static bool is_decided(const imp_survey *s)
     if (first == NULL) return true;
     if (!s->question.is_distance)
         return first->key >= s->best.t || (s->question.how.any && s->best.is_known);
-    return first->key >= survey_distance_enough(s) || s->best.distance <= s->question.gamma;
+    return first->key >= survey_distance_enough(s) ||
+           s->best.distance <= survey_distance_touching(s);
 }
 
 /* Reports the undecided boxes to the sink; an interrupted box is reported as it was before the
@@ -253,9 +254,17 @@ static imp_code report_waiting(imp_survey *s, imp_error *error)
     return code;
 }
 
+/* Whether some box is done with that is not as far as is enough: doubles could not divide it, or
+ * its queries could not measure it. */
+static bool is_unresolved(const imp_survey *s)
+{
+    return s->question.is_distance && s->counts.settled < survey_distance_enough(s) &&
+           s->best.distance > survey_distance_touching(s);
+}
+
 static void conclude(imp_survey *s)
 {
-    s->reason = IMP_REASON_NONE;
+    s->reason = is_unresolved(s) ? IMP_REASON_RESOLUTION : IMP_REASON_NONE;
     s->verdict = s->best.t < INFINITY ? IMP_VERDICT_CONTACT : IMP_VERDICT_CLEAR;
 }
 

@@ -216,6 +216,10 @@ imp_code survey_load(imp_survey *s, const char *text, imp_error *error);
 /* Returns the distance from which on a box needs no further search. */
 double survey_distance_enough(const imp_survey *s);
 
+/* Returns the distance at which a bracket ends, however wide it is: gamma, or what is required if
+ * that is less. */
+double survey_distance_touching(const imp_survey *s);
+
 double survey_seconds(const imp_survey *s);
 
 #endif

@@ -4,16 +4,12 @@
 #define TESTS_SUPPORT_POSE_DESCENT_H
 
 #include "tests/support/survey_scenes.h"
+#include "tests/support/told_boxes.h"
 
 /* An adversary that looks for near poses of a scene with parameters: it samples values, a time and
  * both surfaces, and improves what it finds by descent in all of them at once. */
 
 enum { COARSE = 5, PIECES_MAX = 8, STEPS = 90, POLISH = 600 };
-
-/* Where the adversary may look. */
-typedef struct region_box {
-    double lo[VALUES_MAX], hi[VALUES_MAX], time[2];
-} region_box;
 
 /* Two points at some values: what the descent moves. */
 typedef struct placed {

@@ -100,7 +100,7 @@ static inline imp_survey *survey_from(imp_scene *scene, double t_start, double t
 
 /* --- Random scenes against samples ------------------------------------------------------------ */
 
-enum { BOXES = 64, PARAMETERS = 3, GRID = 6 };
+enum { PARAMETERS = 3, GRID = 6 };
 
 static inline void add_map(uint64_t *r, char *text, size_t size, bool last)
 {

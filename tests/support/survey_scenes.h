@@ -11,7 +11,7 @@
  * which follow a clock themselves; rotations, translations, deformations and tolerances under
  * different clocks; frames, parents, solids. Written with single quotes. */
 
-enum { NAMED_MAX = 4, VALUES_MAX = 8, SCENE_TEXT = 8000 };
+enum { NAMED_MAX = 4, SCENE_TEXT = 8000 };
 
 typedef struct scene_writer {
     uint64_t *random;

@@ -8,38 +8,7 @@
  * descent in all values, time and both points at once: nothing that it finds may be nearer than
  * what is proved, of any box and of the whole. */
 
-enum { TOLD_MAX = 48 };
-
-typedef struct told_box {
-    region_box in;
-    double lower;
-    size_t body[2];
-} told_box;
-
-typedef struct told_boxes {
-    told_box at[TOLD_MAX];
-    size_t count, seen;
-    uint64_t *random;
-} told_boxes;
-
-/* Keeps some of the boxes, each with the same chance. */
-static void keep_box(void *context, const imp_survey_box *box)
-{
-    told_boxes *all = context;
-    if (box->verdict != IMP_VERDICT_CLEAR) return;
-    const size_t seen = all->seen++;
-    const size_t k =
-        seen < TOLD_MAX ? seen : (size_t)(random_fraction(all->random) * (double)(seen + 1));
-    if (k >= TOLD_MAX) return;
-    told_box *to = &all->at[k];
-    if (k == all->count) all->count += 1;
-    ck_assert_uint_le(box->count, VALUES_MAX);
-    memcpy(to->in.lo, box->lo, box->count * sizeof *box->lo);
-    memcpy(to->in.hi, box->hi, box->count * sizeof *box->hi);
-    memcpy(to->body, box->body, sizeof to->body);
-    to->in.time[0] = box->t_start, to->in.time[1] = box->t_end;
-    to->lower = box->lower;
-}
+enum { TOLD = 48 }; /* boxes of a survey that are tried */
 
 /* Writes a random scene whose bodies come near each other, mostly: it is written again, from the
  * random numbers drawn before, with bodies closer by most of the distance found. */
@@ -140,7 +109,7 @@ START_TEST(no_pose_that_a_descent_finds_is_nearer_than_a_proved_bound)
         const int kind = n % KINDS;
         double least;
         imp_scene *scene = write_near(&w, &random, random_power(&random, -6, 0), false, &least);
-        boxes = (told_boxes){.random = &random};
+        boxes = (told_boxes){.random = &random, .most = TOLD};
         const answer found =
             ask_survey(scene, kind, least * random_between(&random, 0.4, 1.02), &boxes);
         check_answer(&random, scene, kind, least, &found, w.text);

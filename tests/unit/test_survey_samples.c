@@ -2,39 +2,12 @@
  * SPDX-License-Identifier: Apache-2.0 */
 #include <config.h>
 
-#include "tests/support/survey_helpers.h"
+#include "tests/support/survey_scenes.h"
+#include "tests/support/told_boxes.h"
 
 /* Random scenes with parameters: boxes that are proved against sampled points. */
 
 /* --- Random scenes against samples ------------------------------------------------------------ */
-
-typedef struct told_box {
-    double lo[PARAMETERS], hi[PARAMETERS], time[2], lower;
-} told_box;
-
-typedef struct told_boxes {
-    told_box at[BOXES];
-    size_t count, seen;
-    uint64_t *random;
-} told_boxes;
-
-/* Keeps some of the boxes, each with the same chance. */
-static void keep_box(void *context, const imp_survey_box *box)
-{
-    told_boxes *all = context;
-    if (box->verdict != IMP_VERDICT_CLEAR) return;
-    const size_t seen = all->seen++;
-    const size_t k =
-        seen < BOXES ? seen : (size_t)(random_fraction(all->random) * (double)(seen + 1));
-    if (k >= BOXES) return;
-    told_box *to = &all->at[k];
-    if (k == all->count) all->count += 1;
-    ck_assert_uint_eq(box->count, PARAMETERS);
-    memcpy(to->lo, box->lo, sizeof to->lo);
-    memcpy(to->hi, box->hi, sizeof to->hi);
-    to->time[0] = box->t_start, to->time[1] = box->t_end;
-    to->lower = box->lower;
-}
 
 /* The least distance of points of both bodies at some values and a time, on a grid. */
 static double sampled(const imp_scene *scene, const double *values, double t)
@@ -73,7 +46,7 @@ static double searched(const imp_scene *scene, const double *values, const told_
     imp_scene *at = imp_scene_at(scene, values, &error);
     ck_assert_msg(at != NULL, "%s", error.text);
     imp_options options = imp_options_default(at);
-    options.t_start = box->time[0], options.t_end = box->time[1];
+    options.t_start = box->in.time[0], options.t_end = box->in.time[1];
     options.max_pairs = 3000;
     imp_clearance_options asked = imp_clearance_options_default();
     asked.tolerance = 0.01;
@@ -94,9 +67,9 @@ static void check_box(uint64_t *r, const imp_scene *scene, const told_box *box, 
     const int corner = (int)(8 * random_fraction(r));
     const bool at_corner = random_fraction(r) < 0.5; /* the worst of a box is there, mostly */
     for (int j = 0; j < PARAMETERS; ++j)
-        values[j] = at_corner ? (corner >> j & 1 ? box->hi[j] : box->lo[j])
-                              : random_between(r, box->lo[j], box->hi[j]);
-    const double t = random_between(r, box->time[0], box->time[1]);
+        values[j] = at_corner ? (corner >> j & 1 ? box->in.hi[j] : box->in.lo[j])
+                              : random_between(r, box->in.lo[j], box->in.hi[j]);
+    const double t = random_between(r, box->in.time[0], box->in.time[1]);
     const double d = random_fraction(r) < 1. / SEARCH_EVERY ? searched(scene, values, box)
                                                             : sampled(scene, values, t);
     ck_assert_msg(d >= box->lower, "%.17g at %.17g, %.17g, %.17g, t %.17g, but %.17g is proved: %s",
@@ -108,8 +81,7 @@ static void survey_for_boxes(uint64_t *r, imp_scene *scene, int kind, told_boxes
 {
     imp_survey_options how = imp_survey_options_default();
     imp_clearance_options asked = imp_clearance_options_default();
-    boxes->count = boxes->seen = 0;
-    boxes->random = r;
+    *boxes = (told_boxes){.random = r, .most = TOLD_MAX};
     how.sink = keep_box;
     how.sink_context = boxes;
     how.max_boxes = 60;
@@ -142,7 +114,7 @@ END_TEST
 static double nearest_of_values(uint64_t *r, const imp_scene *scene, const double *lo,
                                 const double *hi)
 {
-    told_box box = {.time = {0, 1}};
+    told_box box = {.in.time = {0, 1}};
     double least = INFINITY;
     for (int k = 0; k < 12; ++k) {
         double values[PARAMETERS];
@@ -180,11 +152,63 @@ START_TEST(what_some_values_violate_is_never_proved)
 }
 END_TEST
 
+/* --- Requirements with a coarse bracket ------------------------------------------------------- */
+
+/* A random scene of rigid bodies that one parameter moves: it may be the time of all queries, so
+ * that no box is ever halved. */
+static imp_scene *scene_of_one_parameter(scene_writer *w, uint64_t *r)
+{
+    for (;;) {
+        imp_scene *scene = write_scene(w, r, random_power(r, -2, 0), random_between(r, 1, 3), true);
+        if (imp_scene_parameter_count(scene) == 1) return scene;
+        imp_scene_free(scene);
+    }
+}
+
+static imp_clearance bracket(imp_scene *scene, double tolerance, double required)
+{
+    const imp_survey_options how = imp_survey_options_default();
+    imp_clearance_options asked = imp_clearance_options_default();
+    asked.tolerance = tolerance;
+    asked.required = required;
+    return survey(scene, 1e-6, &asked, &how).near;
+}
+
+START_TEST(a_requirement_is_decided_however_coarse_the_bracket)
+{
+    uint64_t random = suite_seed() + 31 * (uint64_t)_i;
+    static scene_writer w;
+    const int scenes = suite_times(12);
+    for (int n = 0; n < scenes; ++n) {
+        imp_scene *scene = scene_of_one_parameter(&w, &random);
+        const imp_clearance fine = bracket(scene, 1e-4, 0);
+        const double lower = fine.lower, upper = fine.upper;
+        const double required[] = {lower * random_between(&random, 0.5, 1),
+                                   lower,
+                                   upper,
+                                   random_between(&random, lower, upper),
+                                   lower * (1 - random_power(&random, -9, -3)),
+                                   upper * (1 + random_power(&random, -9, -3))};
+        for (size_t k = 0; k < sizeof required / sizeof *required && lower > 1e-3; ++k) {
+            const double tolerance = random_between(&random, 0.05, 0.9), d = required[k];
+            const imp_clearance coarse = bracket(scene, tolerance, d);
+            ck_assert_msg(coarse.verdict != IMP_REQUIREMENT_UNDECIDED,
+                          "--tolerance %.17g --require %.17g: undecided, reason %d: %s", tolerance,
+                          d, (int)coarse.reason, w.text);
+            if (d <= lower) ck_assert_int_eq(coarse.verdict, IMP_REQUIREMENT_HOLDS);
+            if (d > upper) ck_assert_int_eq(coarse.verdict, IMP_REQUIREMENT_VIOLATED);
+        }
+        imp_scene_free(scene);
+    }
+}
+END_TEST
+
 int main(void)
 {
     const suite_loop loops[] = {
         {no_sample_is_nearer_than_what_is_proved_of_its_box, 4},
         {what_some_values_violate_is_never_proved, 4},
+        {a_requirement_is_decided_however_coarse_the_bracket, 2},
     };
     return suite_main_loops("survey_samples", loops, sizeof loops / sizeof *loops, open_registry,
                             close_registry);
