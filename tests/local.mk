@@ -35,6 +35,7 @@ check_suites = \
     tests/unit/test_distance_windows \
     tests/unit/test_slips \
     tests/unit/test_slip_pairs \
+    tests/unit/test_screw_slips \
     tests/unit/test_half_planes \
     tests/unit/test_orbits \
     tests/unit/test_shared_solids \
@@ -360,6 +361,9 @@ check_LTLIBRARIES = \
     tests/plugins/liar_truthful.la \
     tests/plugins/liar_truthful_distance.la \
     tests/plugins/liar_truthful_symmetry.la \
+    tests/plugins/liar_truthful_screw.la \
+    tests/plugins/liar_screw_hand.la \
+    tests/plugins/liar_screw.la \
     tests/plugins/liar_truthful_net.la \
     tests/plugins/map_rate_negative.la \
     tests/plugins/mistakes_bounds.la \
@@ -466,6 +470,9 @@ tests_plugins_liar_time_la_LDFLAGS = $(test_plugin_ldflags)
 tests_plugins_liar_truthful_la_LDFLAGS = $(test_plugin_ldflags)
 tests_plugins_liar_truthful_distance_la_LDFLAGS = $(test_plugin_ldflags)
 tests_plugins_liar_truthful_symmetry_la_LDFLAGS = $(test_plugin_ldflags)
+tests_plugins_liar_truthful_screw_la_LDFLAGS = $(test_plugin_ldflags)
+tests_plugins_liar_screw_hand_la_LDFLAGS = $(test_plugin_ldflags)
+tests_plugins_liar_screw_la_LDFLAGS = $(test_plugin_ldflags)
 tests_plugins_liar_truthful_net_la_LDFLAGS = $(test_plugin_ldflags)
 tests_plugins_map_rate_negative_la_LDFLAGS = $(test_plugin_ldflags)
 tests_plugins_mistakes_bounds_la_LDFLAGS = $(test_plugin_ldflags)
@@ -581,6 +588,7 @@ noinst_HEADERS += \
     tests/support/survey_helpers.h \
     tests/support/survey_scenes.h \
     tests/support/told_boxes.h
+noinst_HEADERS += tests/plugins/coil.h
 noinst_HEADERS += tests/plugins/mistakes.h tests/plugins/pipe.h tests/plugins/slab.h tests/plugins/slack_net.h tests/plugins/stack.h \
     tests/support/model_value.h
 

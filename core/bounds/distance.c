@@ -68,6 +68,8 @@ bool distance_slip_is_small(double slip, double gamma_clear)
     return slip < INFINITY && TUNING_DISTANCE_SLIP * slip <= gamma_clear;
 }
 
+double distance_slip_enough(double gamma_clear) { return 0.5 * gamma_clear / TUNING_DISTANCE_SLIP; }
+
 bool distance_slides(const distance_question *q)
 {
     return !q->is_carried && distance_slip_is_small(q->slip, q->gamma_clear);

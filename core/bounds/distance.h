@@ -49,6 +49,9 @@ typedef struct distance_question {
 /* Whether a slip is known, and small against gamma_clear. */
 bool distance_slip_is_small(double slip, double gamma_clear);
 
+/* A slip that is, however it is rounded. */
+double distance_slip_enough(double gamma_clear);
+
 /* Whether a's motion relative to b, modulo b's symmetry, is small against gamma_clear. */
 bool distance_slides(const distance_question *q);
 

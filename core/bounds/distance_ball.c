@@ -20,8 +20,8 @@ static imp_code add_slip(const distance_sides *of, int side, distance_question *
     q->moment = 0.5 * times.lo + 0.5 * times.hi;
     if (is_piece || *known == 0) {
         double found;
-        const imp_status status =
-            surface_ball_slip(q->a->surface, q->b->surface, &all, q->moment, &found);
+        const imp_status status = surface_ball_slip(q->a->surface, q->b->surface, &all, q->moment,
+                                                    distance_slip_enough(q->gamma_clear), &found);
         if (status != IMP_STATUS_OK) return distance_fault(q->b->surface, status, error);
         q->slip = float_upper(found);
         if (!is_piece) *known = (float)q->slip;

@@ -24,15 +24,17 @@ static imp_region all_of(const time_window *times)
  * that is NULL, modulo the other's symmetry. INFINITY: no bound is known, as where the other has
  * many pieces, each with its own symmetry. */
 static imp_code find_slip(const node *own, const node *other, const surface_plane *plane,
-                          const time_window *times, double moment, double *slip, imp_error *error)
+                          const time_window *times, double moment, double gamma_clear, double *slip,
+                          imp_error *error)
 {
     imp_model bare[3];
+    const double enough = distance_slip_enough(gamma_clear);
     *slip = INFINITY;
     if ((plane == NULL && other->many != NULL) || !node_bare_models(own, bare)) return IMP_SUCCESS;
     const imp_region all = all_of(times);
     const surface *a = own->surface, *b = other->surface;
     const imp_status status = plane == NULL
-                                  ? surface_slip(a, b, bare, &all, moment, slip)
+                                  ? surface_slip(a, b, bare, &all, moment, enough, slip)
                                   : surface_slip_along(a, b, plane, bare, &all, moment, slip);
     return status == IMP_STATUS_OK ? IMP_SUCCESS : distance_fault(b, status, error);
 }
@@ -133,8 +135,8 @@ static imp_code add_slip(const distance_sides *of, int side, const time_window *
     float *slip = &of->slips->slip[side];
     if (*slip == 0) {
         double found;
-        const imp_code code =
-            find_slip(of->root[side], of->root[!side], NULL, times, q->moment, &found, error);
+        const imp_code code = find_slip(of->root[side], of->root[!side], NULL, times, q->moment,
+                                        q->gamma_clear, &found, error);
         if (code != IMP_SUCCESS) return code;
         *slip = float_upper(found);
     }
@@ -212,7 +214,7 @@ static imp_code cut_along_face(const distance_sides *of, int side, double gamma_
                            .slip = INFINITY,
                            .is_audited = of->is_audited};
     const imp_code code =
-        find_slip(of->root[side], other, &plane, &times, q.moment, &q.slip, error);
+        find_slip(of->root[side], other, &plane, &times, q.moment, gamma_clear, &q.slip, error);
     return code == IMP_SUCCESS && distance_slides(&q) ? distance_cut(&q, window, view, error)
                                                       : code;
 }

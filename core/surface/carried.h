@@ -26,6 +26,12 @@ imp_status surface_symmetry(const surface *s, imp_symmetry *found);
 /* Whether numbers and flags of a symmetry are what a type may answer. */
 bool symmetry_is_sane(const imp_symmetry *found);
 
+/* Whether its motions are screws, so that no rotation or translation alone is one of them. */
+static inline bool symmetry_is_screw(const imp_symmetry *found)
+{
+    return found->kind == IMP_SYMMETRY_SCREW_RIGHT || found->kind == IMP_SYMMETRY_SCREW_LEFT;
+}
+
 /* Returns the rotations that keep the whole surface. IMP_STATUS_UNBOUNDED: none are known, for
  * instance if it has several pieces, each with its own symmetry. */
 imp_status surface_closed_symmetry(const surface *s, imp_symmetry *found);

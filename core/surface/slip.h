@@ -8,7 +8,7 @@
 
 /* How far a surface moves along another, but for motions of the other within itself
  * =================================================================================
- * For surface_slip.c, slip_center.c and surface_pair_slip.c. */
+ * For surface_slip.c, slip_center.c, slip_screw.c and surface_pair_slip.c. */
 
 typedef struct slip_input {
     const surface *a, *b;
@@ -37,6 +37,10 @@ imp_status slip_find(const slip_input *q, const imp_region *times, double *slip)
 /* Chooses the center of a symmetry across a line, which may be any point of the plane: the one that
  * moves least, since a fixed point has the tightest bound. */
 imp_status slip_choose_center(slip_input *q, const imp_region *times);
+
+/* slip_find for a screw. It goes on until *slip is at most `enough`, or gives up: INFINITY. */
+imp_status slip_find_screw(const slip_input *q, const imp_region *times, double enough,
+                           double *slip);
 
 static inline imp_region slip_at_times(const imp_region *r, double from, double to)
 {

@@ -178,9 +178,10 @@ imp_status surface_distance_within(const surface *s, const imp_region *region, s
  * those that both surfaces end with. A distance that b's type claims for all points within *slip of
  * a point of a at `moment` (surface_distance_within) then holds for that point of a at all times of
  * the region. INFINITY: no bound. `moment` is one of these times. `bare` holds models of a before
- * its maps, of which only the ranges are used; a does not move by itself. */
+ * its maps, of which only the ranges are used; a does not move by itself. Where refinement costs
+ * much, it ends at `enough`, and no greater slip is known. */
 imp_status surface_slip(const surface *a, const surface *b, const imp_model bare[3],
-                        const imp_region *times, double moment, double *slip);
+                        const imp_region *times, double moment, double enough, double *slip);
 
 /* Where motion is counted from: from where all maps take the surface at a moment, or from where it
  * is before them. */
@@ -220,7 +221,7 @@ imp_status surface_bare_ball(const surface *s, const imp_region *region, double 
 
 /* Like surface_slip, of the center of the ball. Precondition: surface_ball knows a. */
 imp_status surface_ball_slip(const surface *a, const surface *b, const imp_region *times,
-                             double moment, double *slip);
+                             double moment, double enough, double *slip);
 
 /* A plane, and an upper bound of the distance from it of the points of a part of a surface, before
  * its maps. */

@@ -234,6 +234,7 @@ imp_status surface_line_of(const surface *s, const surface_course *course, doubl
     if (!surface_has_symmetry(s)) return IMP_STATUS_OK;
     const imp_status status = surface_symmetry(s, &found);
     if (status != IMP_STATUS_OK) return status == IMP_STATUS_UNBOUNDED ? IMP_STATUS_OK : status;
+    if (symmetry_is_screw(&found)) return IMP_STATUS_OK;
     const bool is_ball = found.kind == IMP_SYMMETRY_ABOUT_POINT;
     const double z[3] = {0, 0, 1};
     const double *way = !is_ball ? found.axis : course->spins ? course->axis : z;

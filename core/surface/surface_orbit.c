@@ -57,6 +57,7 @@ imp_status surface_carry_slip(const surface *b, const double lo[3], const double
     if (status != IMP_STATUS_OK) return status == IMP_STATUS_UNBOUNDED ? IMP_STATUS_OK : status;
     if (!are_finite(now.center)) return IMP_STATUS_OK;
     if (found.kind == IMP_SYMMETRY_ABOUT_POINT) return *slip = 0, IMP_STATUS_OK;
+    if (symmetry_is_screw(&found)) return IMP_STATUS_OK; /* S may turn without moving along */
     feature_difference(now.axis, then.axis, turn);
     const double angle = surface_size_upper(turn) * feature_inverse_length(&found) + AXES_OFF;
     const double most = padded_upper(angle * feature_reach_upper(lo, hi, now.center), 16);
@@ -126,6 +127,7 @@ imp_status surface_orbit_slip(const surface *a, const surface *b, const double l
     imp_status status = surface_symmetry(a, &own);
     if (status == IMP_STATUS_OK && own.is_closed <= IMP_SYMMETRY_CLOSED) return IMP_STATUS_OK;
     if (status == IMP_STATUS_OK) status = surface_symmetry(b, &other);
+    if (status == IMP_STATUS_OK && symmetry_is_screw(&other)) return IMP_STATUS_OK;
     if (status == IMP_STATUS_OK) status = feature_carry(a, &own, times, &of_a);
     if (status == IMP_STATUS_OK) status = feature_carry(b, &other, times, &of_b);
     if (status != IMP_STATUS_OK) return status == IMP_STATUS_UNBOUNDED ? IMP_STATUS_OK : status;
@@ -196,7 +198,7 @@ imp_status surface_ball(const surface *s, const imp_region *region, imp_model ce
 }
 
 imp_status surface_ball_slip(const surface *a, const surface *b, const imp_region *times,
-                             double moment, double *slip)
+                             double moment, double enough, double *slip)
 {
     imp_symmetry found;
     imp_model bare[3];
@@ -204,5 +206,5 @@ imp_status surface_ball_slip(const surface *a, const surface *b, const imp_regio
     const imp_status status = surface_symmetry(a, &found);
     if (status != IMP_STATUS_OK) return status == IMP_STATUS_UNBOUNDED ? IMP_STATUS_OK : status;
     for (int i = 0; i < 3; ++i) bare[i] = imp_num(found.center[i]);
-    return surface_slip(a, b, bare, times, moment, slip);
+    return surface_slip(a, b, bare, times, moment, enough, slip);
 }

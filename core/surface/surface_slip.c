@@ -195,7 +195,7 @@ imp_status slip_find(const slip_input *q, const imp_region *times, double *slip)
 }
 
 imp_status surface_slip(const surface *a, const surface *b, const imp_model bare[3],
-                        const imp_region *times, double moment, double *slip)
+                        const imp_region *times, double moment, double enough, double *slip)
 {
     const size_t common = surface_common_maps(a, b);
     slip_input q = {.a = a,
@@ -209,6 +209,8 @@ imp_status surface_slip(const surface *a, const surface *b, const imp_model bare
     imp_status status = surface_symmetry(b, &q.found);
     if (status == IMP_STATUS_OK && q.found.kind == IMP_SYMMETRY_ACROSS_LINE)
         status = slip_choose_center(&q, times);
+    if (status == IMP_STATUS_OK && symmetry_is_screw(&q.found))
+        return slip_find_screw(&q, times, enough, slip);
     if (status == IMP_STATUS_OK && symmetry_is_sane(&q.found)) return slip_find(&q, times, slip);
     return status == IMP_STATUS_OK || status == IMP_STATUS_UNBOUNDED ? IMP_STATUS_OK : status;
 }

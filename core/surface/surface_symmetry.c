@@ -11,8 +11,9 @@ bool symmetry_is_sane(const imp_symmetry *found)
     const uint32_t orbits = IMP_SYMMETRY_ORBIT_U | IMP_SYMMETRY_ORBIT_V,
                    all = IMP_SYMMETRY_CLOSED | IMP_SYMMETRY_ORBIT_ALL | orbits;
     double most = 0;
-    if (found->kind < IMP_SYMMETRY_ABOUT_POINT || found->kind > IMP_SYMMETRY_ACROSS_LINE)
+    if (found->kind < IMP_SYMMETRY_ABOUT_POINT || found->kind > IMP_SYMMETRY_SCREW_LEFT)
         return false;
+    if (symmetry_is_screw(found) && found->is_closed != 0) return false;
     const bool is_ball = found->kind == IMP_SYMMETRY_ABOUT_POINT;
     for (int i = 0; i < 3; ++i) {
         if (!isfinite(found->center[i]) || !isfinite(found->axis[i])) return false;

@@ -38,6 +38,7 @@ typedef struct thread_instance {
     double radius, root; /* root: at most the least radius, > 0 */
     double starts, height, center[3];
     near_constant along_v, along_z; /* 2 pi height / pitch, 2 pi / pitch; rad, rad/length */
+    double lead, lead_off;          /* starts * pitch, rounded, and room for the rounding; length */
     size_t count;
     double profile[];
 } thread_instance;
@@ -67,6 +68,15 @@ static imp_status check(const imp_value *values, imp_create_error *why)
     return IMP_STATUS_OK;
 }
 
+/* Lemma. starts * pitch is off by at most u of the lead, u = 2^-53, and screw motions by at most
+ * IMP_SCREW_TURNS turns by as often as much. */
+static void set_lead(thread_instance *s, double pitch)
+{
+    s->lead = s->starts * pitch;
+    const bool is_exact = fma(s->starts, pitch, -s->lead) == 0;
+    s->lead_off = is_exact ? 0 : fabs(s->lead) * (0x1p-52 * IMP_SCREW_TURNS);
+}
+
 static imp_status thread_create(const imp_value *values, void **self, imp_create_error *why)
 {
     const imp_value *profile = &values[PROFILE];
@@ -82,6 +92,7 @@ static imp_status thread_create(const imp_value *values, void **self, imp_create
     const imp_model wave = imp_div(imp_scale(imp_const_pi(), 2), imp_num(values[PITCH].number[0]));
     s->along_z = near_of(wave);
     s->along_v = near_of(imp_scale(wave, s->height));
+    set_lead(s, values[PITCH].number[0]);
     s->count = profile->count;
     memcpy(s->profile, profile->number, s->count * sizeof s->profile[0]);
     *self = s;
@@ -202,10 +213,24 @@ static imp_model thread_gap(const void *self, imp_model x, imp_model y, imp_mode
     const imp_model phase = imp_sub(turn, near_scale(imp_shift(z, -s->center[2]), s->along_z));
     const imp_model f = imp_sub(q, radius_at(s, phase));
     (void)t;
-    return imp_scale(
+    const imp_model gap = imp_scale(
         f, factor_lower(s, imp_model_range(&phase), imp_interval_mag(imp_model_range(&f)), q.lo));
+    return imp_add(gap, imp_between(-s->lead_off, s->lead_off));
 }
 IMP_DISTANCE_FORMULA(thread_gap)
+
+/* Screws of the endless thread. A turn by A changes the phase by starts A, which is as much as that
+ * by starts pitch A / (2 pi) along the axis. */
+static imp_status thread_symmetry(const void *self, imp_symmetry *symmetry)
+{
+    const thread_instance *s = self;
+    const double length = fabs(s->lead);
+    if (!(length >= THREAD_SHORT && length <= THREAD_FAR)) return IMP_STATUS_UNBOUNDED;
+    symmetry->kind = s->lead > 0 ? IMP_SYMMETRY_SCREW_RIGHT : IMP_SYMMETRY_SCREW_LEFT;
+    symmetry->axis[2] = length;
+    memcpy(symmetry->center, s->center, sizeof s->center);
+    return IMP_STATUS_OK;
+}
 
 static imp_status thread_write_formula(const void *self, const imp_text_sink *to)
 {
@@ -227,6 +252,7 @@ static imp_status thread_write_formula(const void *self, const imp_text_sink *to
 static const imp_surface_type thread = {
     IMP_SURFACE_FIELDS(thread, thread_formula),
     .distance = thread_gap_distance,
+    .symmetry = thread_symmetry,
     .write_formula = thread_write_formula,
     .summary = "flanks of a screw thread about the z axis, of any profile",
     .equation =

@@ -272,16 +272,27 @@ typedef struct imp_pose {
 /* The rigid motions that map the surface onto itself at any time: those of a sphere, of a surface
  * of revolution, of an endless cylinder or of an endless plane. If `distance` measures from a
  * larger surface that holds this one, they are the motions of the larger surface. The line goes
- * through the center along the axis, whose length does not matter. Center and axis are exact. */
+ * through the center along the axis, whose length matters for screws only. Center and axis are
+ * exact.
+ *
+ * Screws: endless threads, worms, springs. A turn by any angle A about the line, |A| at most 2 pi
+ * IMP_SCREW_TURNS, comes with a translation by A / (2 pi) times the axis, which is as long as the
+ * lead. SCREW_RIGHT turns counterclockwise as seen from the axis' end, SCREW_LEFT clockwise. A lead
+ * that is no double is rounded, and IMP_SCREW_TURNS times what it is off by is taken off the
+ * distances. */
 enum {
     IMP_SYMMETRY_ABOUT_POINT = 1, /* every rotation about the center; the axis is not read */
     IMP_SYMMETRY_ABOUT_LINE = 2,  /* every rotation about the line */
     IMP_SYMMETRY_ALONG_LINE = 3,  /* these, and every translation along it */
-    IMP_SYMMETRY_ACROSS_LINE = 4  /* these rotations, and translations perpendicular to the line */
+    IMP_SYMMETRY_ACROSS_LINE = 4, /* these rotations, and translations perpendicular to the line */
+    IMP_SYMMETRY_SCREW_RIGHT = 5, /* right-handed screw motions along the line */
+    IMP_SYMMETRY_SCREW_LEFT = 6   /* left-handed ones */
 };
 
+#define IMP_SCREW_TURNS 0x1p10
+
 /* What a symmetry claims besides, of the surface itself over all u and v of its domain; the sum of
- * any of these.
+ * any of these; 0 for screws.
  *
  * CLOSED: each rotation of the kind maps the surface onto itself. A whole cylinder is closed, half
  * a cylinder is not (a full turn needs IMP_TWO_PI_UPPER). The distance of two bodies that only turn
@@ -299,10 +310,10 @@ enum {
 };
 
 typedef struct imp_symmetry {
-    uint32_t kind;      /* IMP_SYMMETRY_ABOUT_... */
+    uint32_t kind;      /* IMP_SYMMETRY_ABOUT_POINT, ... */
     uint32_t is_closed; /* IMP_SYMMETRY_CLOSED, ... or 0 */
     double center[3];   /* length */
-    double axis[3];     /* some component from 1e-100 to 1e100 */
+    double axis[3];     /* some component from 1e-100 to 1e100; of a screw length per turn */
 } imp_symmetry;
 
 /* --- Formulas as text ------------------------------------------------------------------------- */

@@ -75,6 +75,7 @@ static void regions(void)
     FIELD(imp_pose, turn), FIELD(imp_pose, shift), FIELD(imp_pose, pivot), FIELD(imp_pose, fixed);
     NUMBER(IMP_SYMMETRY_ABOUT_POINT), NUMBER(IMP_SYMMETRY_ABOUT_LINE);
     NUMBER(IMP_SYMMETRY_ALONG_LINE), NUMBER(IMP_SYMMETRY_ACROSS_LINE);
+    NUMBER(IMP_SYMMETRY_SCREW_RIGHT), NUMBER(IMP_SYMMETRY_SCREW_LEFT), NUMBER(IMP_SCREW_TURNS);
     FIXED(imp_symmetry);
     FIELD(imp_symmetry, kind), FIELD(imp_symmetry, is_closed);
     FIELD(imp_symmetry, center), FIELD(imp_symmetry, axis);

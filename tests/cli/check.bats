@@ -119,8 +119,12 @@ load ../support/check_helper
 @test "symmetries that are none are exposed, and true ones are not" {
     exposes distances liar_symmetry 'symmetry allows turning by '
     exposes distances symmetry_nan 'the symmetry has an unknown kind'
-    run -0 "$IMPINGE" check "$liars/liar_truthful_symmetry.so" --only distances
-    [[ $output == *'pass  distances '*comparisons* ]]
+    exposes distances liar_screw 'symmetry allows turning by '
+    exposes distances liar_screw_hand 'symmetry allows turning by '
+    for truthful in symmetry screw; do
+        run -0 "$IMPINGE" check "$liars/liar_truthful_$truthful.so" --only distances
+        [[ $output == *'pass  distances '*comparisons* ]]
+    done
 }
 
 @test "distances that are too large far away, late or in a spot are exposed, and symmetries there" {

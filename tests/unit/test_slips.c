@@ -144,7 +144,7 @@ static tally try_all(double factor)
         double slip;
         for (int i = 0; i < 3; ++i)
             bare[i] = imp_between(y.symmetry.center[i] - y.reach, y.symmetry.center[i] + y.reach);
-        ck_assert_int_eq(surface_slip(a, b, bare, &y.times, y.moment, &slip), IMP_STATUS_OK);
+        ck_assert_int_eq(surface_slip(a, b, bare, &y.times, y.moment, 0, &slip), IMP_STATUS_OK);
         if (slip < INFINITY) judge(&y, b, factor * slip, &random, &of);
         of.known += slip < INFINITY;
         of.exact += slip < 0x1p-36 * (y.reach + 256);
@@ -181,7 +181,7 @@ static imp_status slip_of(motion *m, imp_symmetry *symmetry, double *slip)
     imp_model bare[3];
     for (int i = 0; i < 3; ++i) bare[i] = imp_between(-1, 1);
     const imp_region times = region_make((double[3]){0, 0, 0}, (double[3]){1, 1, 1});
-    const imp_status status = surface_slip(a, b, bare, &times, 0.5, slip);
+    const imp_status status = surface_slip(a, b, bare, &times, 0.5, 0, slip);
     surface_free(a);
     surface_free(b);
     return status;
@@ -210,7 +210,7 @@ START_TEST(symmetries_that_are_none_are_refused)
 {
     motion m = {.rate = 3};
     double slip;
-    imp_symmetry bad[4] = {{.kind = 0}, {.kind = 5}, {.kind = IMP_SYMMETRY_ABOUT_LINE}, ball()};
+    imp_symmetry bad[4] = {{.kind = 0}, {.kind = 7}, {.kind = IMP_SYMMETRY_ABOUT_LINE}, ball()};
     bad[3].center[1] = NAN;
     for (int k = 0; k < 4; ++k) ck_assert_int_eq(slip_of(&m, &bad[k], &slip), SURFACE_BAD_SYMMETRY);
 }

@@ -141,7 +141,7 @@ const everyday_family everyday_families[] = {
      BOND_NONE, 0, false, "123", 20000, "", ""},
     /* threads */
     {"nut on its bolt", THREAD("~1", "2"), "", THREAD("1", "0.5"), SCREW, BOND_NONE, 0, false,
-     "123", 10000, "3", ""},
+     "123", 10000, "", ""},
     {"nut on its bolt by formula", THREAD_BY_FORMULA("~1", "-2", "2"), "",
      THREAD_BY_FORMULA("1", "-0.5", "0.5"), SCREW, BOND_NONE, 0, false, "12", 20000, "2", ""},
     /* long and fast */

@@ -111,14 +111,15 @@ static bool judge_symmetry(const subject *s, const imp_symmetry *found)
     const uint32_t lines = IMP_SYMMETRY_ORBIT_U | IMP_SYMMETRY_ORBIT_V,
                    flags = IMP_SYMMETRY_CLOSED | IMP_SYMMETRY_ORBIT_ALL | lines;
     const bool is_ball = found->kind == IMP_SYMMETRY_ABOUT_POINT;
-    bool sane = found->kind >= IMP_SYMMETRY_ABOUT_POINT && found->kind <= IMP_SYMMETRY_ACROSS_LINE;
+    bool sane = found->kind >= IMP_SYMMETRY_ABOUT_POINT && found->kind <= IMP_SYMMETRY_SCREW_LEFT;
     double most = 0;
     for (int i = 0; i < 3; ++i) {
         sane = sane && isfinite(found->center[i]) && isfinite(found->axis[i]);
         most = fmax(most, fabs(found->axis[i]));
     }
     sane = sane && found->is_closed <= flags &&
-           (is_ball || (found->is_closed & IMP_SYMMETRY_ORBIT_ALL) == 0);
+           (is_ball || (found->is_closed & IMP_SYMMETRY_ORBIT_ALL) == 0) &&
+           (found->kind <= IMP_SYMMETRY_ACROSS_LINE || found->is_closed == 0);
     const bool has_axis = !is_ball || (found->is_closed & lines) != 0;
     sane = sane && (!has_axis || (most >= 1e-100 && most <= 1e100));
     return sane ||

@@ -19,9 +19,28 @@ static void draw_axis(uint64_t *random, const imp_symmetry *of, long double n[3]
     for (int i = 0; i < 3; ++i) n[i] /= most * sqrtl(square);
 }
 
+/* Some turns, or up to IMP_SCREW_TURNS of them, which show a lead that is wrong by little. */
+static motion draw_screw(uint64_t *random, const imp_symmetry *of)
+{
+    const long double turn = 2 * acosl(-1);
+    const double turns = random_power(random, -4, 9) * (random_between(random, -1, 1) < 0 ? -1 : 1);
+    const double hand = of->kind == IMP_SYMMETRY_SCREW_RIGHT ? 1 : -1;
+    long double n[3];
+    motion m = {.angle = (double)(hand * turns * turn)};
+    draw_axis(random, of, n);
+    for (int i = 0; i < 3; ++i) {
+        m.center[i] = of->center[i];
+        m.axis[i] = (double)n[i];
+        m.shift[i] = (double)(hand * m.angle / turn * of->axis[i]);
+    }
+    return m;
+}
+
 motion motion_draw(uint64_t *random, const imp_symmetry *of, double size)
 {
     long double n[3], way[3], along = 0;
+    if (of->kind == IMP_SYMMETRY_SCREW_RIGHT || of->kind == IMP_SYMMETRY_SCREW_LEFT)
+        return draw_screw(random, of);
     motion m = {.angle = random_between(random, -4, 4)};
     const double far = size * random_power(random, -8, 20);
     draw_axis(random, of, n);

@@ -1,0 +1,79 @@
+/* SPDX-FileCopyrightText: The Impinge authors
+ * SPDX-License-Identifier: Apache-2.0 */
+#ifndef TESTS_PLUGINS_COIL_H
+#define TESTS_PLUGINS_COIL_H
+
+#include "liar.h"
+
+/* A right-handed thread of lead 1, q = 2 + cos(u - 2 pi z) / 5, and distances from it: for plugins
+ * beside this file to say what screw motions it has. */
+
+static inline void coil_domain(const void *self, double lo[3], double hi[3])
+{
+    tiny_domain(self, lo, hi);
+    lo[0] = lo[1] = 0, hi[0] = IMP_TWO_PI_UPPER, hi[1] = 2;
+}
+
+static inline imp_model coil_turn(imp_model z) { return imp_mul(imp_scale(imp_const_pi(), 2), z); }
+
+static inline void coil_formula(const void *self, imp_model u, imp_model v, imp_model t,
+                                imp_model out[3])
+{
+    const imp_model wave = imp_cos(imp_sub(u, coil_turn(v)));
+    const imp_model q = imp_shift(imp_scale(wave, 0.2), 2);
+    imp_model sine, cosine;
+    (void)self, (void)t;
+    imp_sincos(u, &sine, &cosine);
+    out[0] = imp_mul(q, cosine);
+    out[1] = imp_mul(q, sine);
+    out[2] = v;
+}
+IMP_SURFACE_FORMULA(coil_formula)
+
+/* Between radii of 1.5 and 2.5 the way to the nearest point stays outside of radius 1, where |grad
+ * (q - radius)| <= sqrt(1 + 0.2^2 (4 pi^2 + 1)) < 1.63. */
+static inline imp_model coil_gap(const void *self, imp_model x, imp_model y, imp_model z,
+                                 imp_model t)
+{
+    const imp_model q = imp_sqrt(imp_add(imp_sqr(x), imp_sqr(y)));
+    imp_model sine, cosine;
+    (void)self, (void)t;
+    if (!(q.lo >= 1.75 && q.hi <= 2.25)) return imp_unbounded(7);
+    imp_sincos(coil_turn(z), &sine, &cosine);
+    const imp_model wave = imp_div(imp_add(imp_mul(x, cosine), imp_mul(y, sine)), q);
+    return imp_scale(imp_sub(imp_shift(q, -2), imp_scale(wave, 0.2)), 0.6);
+}
+IMP_DISTANCE_FORMULA(coil_gap)
+
+static inline imp_status coil_symmetry(uint32_t kind, double lead, imp_symmetry *found)
+{
+    found->kind = kind;
+    found->axis[2] = lead;
+    return IMP_STATUS_OK;
+}
+
+#define COIL_PLUGIN(NAME, KIND, LEAD)                                                              \
+    static imp_status symmetry_of(const void *self, imp_symmetry *found)                           \
+    {                                                                                              \
+        (void)self;                                                                                \
+        return coil_symmetry(KIND, LEAD, found);                                                   \
+    }                                                                                              \
+    static const imp_surface_type coil_type = {                                                    \
+        .struct_size = sizeof(imp_surface_type),                                                   \
+        .parameter_size = sizeof(imp_parameter),                                                   \
+        .name = NAME,                                                                              \
+        .summary = "a coil",                                                                       \
+        .equation = "q = 2 + cos(u - 2 pi z) / 5",                                                 \
+        .example = NAME,                                                                           \
+        .create = tiny_create,                                                                     \
+        .destroy = tiny_destroy,                                                                   \
+        .domain = coil_domain,                                                                     \
+        .eval = coil_formula_eval,                                                                 \
+        .rate = coil_formula_rate,                                                                 \
+        .include = coil_formula_include,                                                           \
+        .distance = coil_gap_distance,                                                             \
+        .symmetry = symmetry_of,                                                                   \
+    };                                                                                             \
+    TINY_PLUGIN(NAME, coil_type)
+
+#endif
