@@ -117,7 +117,7 @@ typedef struct survey_pairs {
 
 /* The surfaces before their maps. */
 typedef struct survey_extents {
-    size_t *first; /* of each body, its first surface */
+    size_t *first; /* of each body that is asked about, its first surface */
     surface_extent *of;
 } survey_extents;
 

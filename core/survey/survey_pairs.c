@@ -51,31 +51,31 @@ static imp_code add_pair(imp_survey *s, survey_pair pair, imp_error *error)
     return IMP_SUCCESS;
 }
 
-static bool is_asked(const imp_survey *s, size_t a, size_t b)
+/* Collects two bodies; *rests: it has left them to the pair that stands for all that rest. */
+static imp_code collect_pair(imp_survey *s, size_t a, size_t b, bool *rests, imp_error *error)
 {
-    const size_t *body = s->question.how.body;
-    if (body[0] == SIZE_MAX && body[1] == SIZE_MAX) return !imp_scene_ignores(s->scene, a, b);
-    return (body[0] == a && body[1] == b) || (body[0] == b && body[1] == a);
+    survey_pair pair = {.body = {a, b}, .swept = SIZE_MAX};
+    pair.left_out = common_motion(s->scene, pair.body);
+    if (body_follows(s->scene, a, pair.left_out) || body_follows(s->scene, b, pair.left_out) ||
+        s->question.how.body[0] != SIZE_MAX)
+        return add_pair(s, pair, error);
+    *rests = true;
+    return IMP_SUCCESS;
 }
 
 static imp_code collect_pairs(imp_survey *s, imp_error *error)
 {
-    const size_t bodies = scene_body_count(s->scene);
+    const size_t bodies = scene_body_count(s->scene), *of = s->question.how.body;
+    const bool is_of_two = of[0] != SIZE_MAX;
     bool any_rests = false;
+    if (is_of_two) return collect_pair(s, of[of[0] > of[1]], of[of[0] < of[1]], &any_rests, error);
     imp_code code = IMP_SUCCESS;
-    for (size_t a = 0; a < bodies; ++a)
-        for (size_t b = a + 1; b < bodies && code == IMP_SUCCESS; ++b) {
-            survey_pair pair = {.body = {a, b}, .swept = SIZE_MAX};
-            if (scene_surface_count(s->scene, a) == 0 || scene_surface_count(s->scene, b) == 0)
-                continue;
-            if (!is_asked(s, a, b)) continue;
-            pair.left_out = common_motion(s->scene, pair.body);
-            if (body_follows(s->scene, a, pair.left_out) ||
-                body_follows(s->scene, b, pair.left_out) || s->question.how.body[0] != SIZE_MAX)
-                code = add_pair(s, pair, error);
-            else
-                any_rests = true;
-        }
+    for (size_t a = 0; a < bodies; ++a) {
+        if (scene_surface_count(s->scene, a) == 0) continue;
+        for (size_t b = a + 1; b < bodies && code == IMP_SUCCESS; ++b)
+            if (scene_surface_count(s->scene, b) > 0 && !imp_scene_ignores(s->scene, a, b))
+                code = collect_pair(s, a, b, &any_rests, error);
+    }
     if (code == IMP_SUCCESS && (any_rests || s->pairs.count == 0)) {
         const survey_pair rest = {.body = {SURVEY_ALL_BODIES, SURVEY_ALL_BODIES},
                                   .swept = SIZE_MAX};
@@ -86,37 +86,40 @@ static imp_code collect_pairs(imp_survey *s, imp_error *error)
 
 /* --- How large surfaces are ------------------------------------------------------------------- */
 
+/* Bodies that the survey asks about: body k of them. A survey of two needs no extents of others. */
+static size_t asked_count(const imp_survey *s)
+{
+    return s->question.how.body[0] == SIZE_MAX ? scene_body_count(s->scene) : 2;
+}
+
+static size_t asked_body(const imp_survey *s, size_t k)
+{
+    return s->question.how.body[0] == SIZE_MAX ? k : s->question.how.body[k];
+}
+
 static imp_code make_room_for_extents(imp_survey *s, imp_error *error)
 {
     const size_t bodies = scene_body_count(s->scene);
     size_t count = 0;
     s->extents.first = malloc((bodies + 1) * sizeof *s->extents.first);
     if (s->extents.first == NULL) return error_set_memory(error);
-    for (size_t b = 0; b < bodies; ++b) {
-        s->extents.first[b] = count;
-        count += scene_surface_count(s->scene, b);
+    for (size_t k = 0; k < asked_count(s); ++k) {
+        s->extents.first[asked_body(s, k)] = count;
+        count += scene_surface_count(s->scene, asked_body(s, k));
     }
     s->extents.of = malloc((count + 1) * sizeof *s->extents.of);
     return s->extents.of != NULL ? IMP_SUCCESS : error_set_memory(error);
 }
 
-/* Whether the survey asks about the body: of two that it is asked about alone, no other needs an
- * extent. */
-static bool is_in_question(const imp_survey *s, size_t body)
-{
-    const size_t *of = s->question.how.body;
-    return of[0] == SIZE_MAX || of[0] == body || of[1] == body;
-}
-
 static imp_code find_extents(imp_survey *s, double t_start, double t_end, imp_error *error)
 {
     const value_box whole = {s->parameters, s->lo, s->hi, s->lo, t_start, t_end};
-    for (size_t b = 0; b < scene_body_count(s->scene); ++b) {
-        if (!is_in_question(s, b)) continue;
-        for (size_t k = 0; k < scene_surface_count(s->scene, b); ++k) {
-            const surface *of = scene_surface(s->scene, b, k);
+    for (size_t j = 0; j < asked_count(s); ++j) {
+        const size_t body = asked_body(s, j);
+        for (size_t k = 0; k < scene_surface_count(s->scene, body); ++k) {
+            const surface *of = scene_surface(s->scene, body, k);
             const imp_status status =
-                surface_extent_find(of, &whole, &s->extents.of[s->extents.first[b] + k]);
+                surface_extent_find(of, &whole, &s->extents.of[s->extents.first[body] + k]);
             if (status == IMP_STATUS_OK) continue;
             surface_fault(of, error, ": %s", surface_status_message(of, status).text);
             return surface_set_code(status, error);
