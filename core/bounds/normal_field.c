@@ -7,11 +7,6 @@
 #include "core/bounds/normal_turn.h"
 #include "core/bounds/quadratic.h"
 
-/* The offset, drift and bend of the difference in the frame. */
-typedef struct path {
-    local delta, drift, bend;
-} path;
-
 /* Returns m_q.x_l + m_l.x_q for two terms x of one surface. */
 static double both_ways(const local_slice *s, const turn *m, int q, int l)
 {
@@ -250,16 +245,40 @@ static void least_values(const quadratics *p, double least[IMP_QUAD])
         quadratics_least(p, least);
 }
 
-bool normal_field_cut(const difference *r, double gamma_clear, w_range *s, gap_lines *lines)
+/* Both slices and the path of the difference in the frame. */
+typedef struct view {
+    local_slice a, b;
+    path x;
+} view;
+
+static view view_in(const frame *f, const difference *r)
+{
+    return (view){normal_slice_to_local(f, &r->a, r->posed > 0),
+                  normal_slice_to_local(f, &r->b, r->posed > 0), normal_path_to_local(f, r)};
+}
+
+/* Tilts the frame's normal; the tangents remain, though they are no longer perpendicular to it.
+ * False: by 45 degrees or more. So |n0| is below 1.5, and n0.t off by less than DOT_ROUNDING u. */
+static bool tilt_frame(frame *f, const double tilt[2])
+{
+    if (!(fabs(tilt[0]) + fabs(tilt[1]) < 1)) return false;
+    f->n = vec3_add(f->n, vec3_add(vec3_scale(f->t[0], tilt[0]), vec3_scale(f->t[1], tilt[1])));
+    return true;
+}
+
+bool normal_field_cut(const difference *r, vec3 axis, double gamma_clear, w_range *s,
+                      gap_lines *lines)
 {
     frame f;
     turns m;
-    if (!normal_frame_between(r, &f)) return true;
-    const local_slice a = normal_slice_to_local(&f, &r->a, r->posed > 0),
-                      b = normal_slice_to_local(&f, &r->b, r->posed > 0);
-    if (!normal_turns_choose(&a, &b, &m)) return true;
-    const path x = {to_local(&f, r->delta), to_local(&f, r->drift), to_local(&f, r->bend)};
-    const height h = height_of(r, &a, &b, &m, &x);
+    if (!normal_frame_between(r, axis, &f)) return true;
+    view v = view_in(&f, r);
+    if (!normal_turns_choose(&f, &v.a, &v.b, &v.x, &m)) return true;
+    if (m.tilt[0] != 0 || m.tilt[1] != 0) {
+        if (!tilt_frame(&f, m.tilt)) return true;
+        v = view_in(&f, r);
+    }
+    const height h = height_of(r, &v.a, &v.b, &m, &v.x);
     const imp_quad seen = imp_quad_min(quadratics_corner(&h.parts), imp_quad_all(0));
     if (h.offset - h.drift + (seen[0] + seen[1]) <= 0 &&
         h.offset + h.drift + (seen[2] + seen[3]) <= 0)
@@ -271,7 +290,7 @@ bool normal_field_cut(const difference *r, double gamma_clear, w_range *s, gap_l
     const double drift = h.drift + 0.5 * (end - start);
     if (lines == NULL && middle + fabs(drift) <= 0) return true; /* nothing can be cut */
     double slack, length;
-    if (!slack_and_length(r, &f, &a, &b, &m, &x, &slack, &length)) return true;
+    if (!slack_and_length(r, &f, &v.a, &v.b, &m, &v.x, &slack, &length)) return true;
     const double low = middle - slack;
     if (lines != NULL) gap_lines_add(lines, low, drift, length);
     return w_range_cut(s, low, drift, length * gamma_clear);

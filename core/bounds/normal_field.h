@@ -13,11 +13,16 @@
  * K is the mean of the two curvatures, and with time as the mean of the two normals does. Then n.(B
  * - A) is the sum of one quadratic for each surface, in which only the difference of the curvatures
  * is left, up to terms of third order. Near contact, nodes and windows need to be as small as the
- * cube root of the gap instead of its square root. */
+ * cube root of the gap instead of its square root.
+ *
+ * An edge or a corner on a face, and two edges that cross, are alike: a hollow face meets a fixed
+ * axis with its curvature, two edges that bend towards each other with both. There K is that of the
+ * face, or of each edge along itself (normal_turn.h). */
 
 /* Cuts the range of w to the w at which the field does not prove the nodes farther apart than
- * gamma_clear. False: none is left. The lower bounds of the distance that the field proves are
- * added to `lines`, unless NULL. */
-bool normal_field_cut(const difference *r, double gamma_clear, w_range *s, gap_lines *lines);
+ * gamma_clear. False: none is left. `axis` is as for normal_frame_between. The lower bounds of the
+ * distance that the field proves are added to `lines`, unless NULL. */
+bool normal_field_cut(const difference *r, vec3 axis, double gamma_clear, w_range *s,
+                      gap_lines *lines);
 
 #endif

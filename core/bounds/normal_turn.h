@@ -9,15 +9,24 @@
  * ============================
  * The frame of the field, the two slices in it, and the numbers by which the axis turns with the
  * surfaces and with time. They are chosen for tightness: normal_field.c proves its bounds for any
- * numbers. */
+ * numbers.
+ *
+ * The field is the normals of a surface between the two, of curvature K. It follows what touches:
+ * the mean of two faces; one face, where an edge or a corner of the other side touches it; or two
+ * edges that cross, K being the curvature of each along itself. */
 
 /* A vector in the field's frame: along the tangents t1, t2 and the normal. */
 typedef struct local {
     double t[2], n;
 } local;
 
+/* How a surface touches the other one along an axis: with its inside, with an edge along u or v, or
+ * with a corner. */
+typedef enum touch { TOUCH_EDGE_U, TOUCH_EDGE_V, TOUCH_FACE, TOUCH_CORNER } touch;
+
 typedef struct frame {
     vec3 t[2], n;
+    touch side[2];
 } frame;
 
 static inline local to_local(const frame *f, const double *x)
@@ -50,9 +59,20 @@ static inline local_slice normal_slice_to_local(const frame *f, const slice *s, 
     return l;
 }
 
-/* Makes the frame between the two normals, of unit length up to rounding. False: the surfaces have
- * no normals or are not nearly tangent. */
-bool normal_frame_between(const difference *r, frame *f);
+/* The offset, drift and bend of the difference in the frame. */
+typedef struct path {
+    local delta, drift, bend;
+} path;
+
+static inline path normal_path_to_local(const frame *f, const difference *r)
+{
+    return (path){to_local(f, r->delta), to_local(f, r->drift), to_local(f, r->bend)};
+}
+
+/* Makes the frame between the two normals or, if the surfaces are not nearly tangent, the frame of
+ * the face or the two edges that touch along `axis`, which nearly separates them; 0: none is known.
+ * Its vectors are of unit length up to rounding. False: there is no such frame. */
+bool normal_frame_between(const difference *r, vec3 axis, frame *f);
 
 static inline double dot2(const double *m, const local *x)
 {
@@ -65,13 +85,15 @@ typedef struct turn {
     double l[2][2], q[SECONDS][2];
 } turn;
 
-/* The numbers m of the lemma. */
+/* The numbers m of the lemma; and what is to be added to the frame's normal, along the tangents,
+ * since the middle between the two centres is not where the face is touched. */
 typedef struct turns {
     turn a, b;
-    double w[2];
+    double w[2], tilt[2];
 } turns;
 
 /* Chooses the numbers m of the lemma. False: the slopes are too nearly parallel. */
-bool normal_turns_choose(const local_slice *a, const local_slice *b, turns *m);
+bool normal_turns_choose(const frame *f, const local_slice *a, const local_slice *b, const path *x,
+                         turns *m);
 
 #endif

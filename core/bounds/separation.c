@@ -61,13 +61,14 @@ static bool cut_across(const node *a, const node *b, double gamma_clear, time_wi
     return true;
 }
 
-/* Cuts the range along turning axes, unless they seldom paid in this candidate pair. */
-static bool cut_by_turning(const difference *r, double gamma_clear, w_range *s, trial_rate *turning,
-                           gap_lines *lines)
+/* Cuts the range along turning axes, unless they seldom paid in this candidate pair. `axis` is a
+ * fixed axis from which they may begin; 0: none is known. */
+static bool cut_by_turning(const difference *r, vec3 axis, double gamma_clear, w_range *s,
+                           trial_rate *turning, gap_lines *lines)
 {
     const w_range before = *s;
     if (!strategy_takes_turning(&before, turning)) return true;
-    const bool some = normal_field_cut(r, gamma_clear, s, lines);
+    const bool some = normal_field_cut(r, axis, gamma_clear, s, lines);
     strategy_note_turning(&before, s, some, turning);
     return some;
 }
@@ -94,7 +95,7 @@ static bool shrink_by_quadratics(const node *a, const node *b, double gamma_clea
         }
         gap_lines *const kept = near != NULL ? &lines : NULL;
         if (!fixed_axes_cut(&r, gamma_clear, &s, axis, kept)) return false;
-        if (!cut_by_turning(&r, gamma_clear, &s, turning, kept)) return false;
+        if (!cut_by_turning(&r, *axis, gamma_clear, &s, turning, kept)) return false;
         window_cut(window, r.mid, r.half, &s);
         if (near != NULL) approach_take(near, &r, &lines, s);
         if (!(s.hi - s.lo < 2) || plan.is_thin) return true;
@@ -121,17 +122,21 @@ static bool cut_by_hulls(strategy_hulls hulls, const node *a, const node *b, vec
 
 /* Cuts by quadratics after hulls. Hulls of curved surfaces are nearer to each other than the
  * surfaces, so the quadratics are tried along the hulls' axis or, where the hulls intersect, along
- * the axis that GJK finds. */
+ * the axis that GJK finds. Where none is found, the last axis stays in use if turning axes that
+ * begin from it cut the start. */
 static bool cut_by_models(const node *a, const node *b, double gamma_clear, time_window *window,
                           vec3 *axis, trial_rate *turning, bool found)
 {
     difference r;
     w_range s = {-1, 1};
+    const vec3 last = *axis;
     difference_at(a, b, window, &r);
     if (found ? !fixed_axes_cut_along(&r, gamma_clear, &s, *axis)
               : !fixed_axes_cut(&r, gamma_clear, &s, axis, NULL))
         return false;
-    if (!cut_by_turning(&r, gamma_clear, &s, turning, NULL)) return false;
+    const double start = s.lo;
+    if (!cut_by_turning(&r, last, gamma_clear, &s, turning, NULL)) return false;
+    if (s.lo > start) *axis = last;
     window_cut(window, r.mid, r.half, &s);
     return true;
 }

@@ -38,7 +38,8 @@
  *                                                                   wrong
  *   turning field           fixed axes leave the window's start;    it shows more only where one
  *                           else as often as it pays                lies in the other's concave
- *                                                                   side
+ *                                                                   side, or two edges bend towards
+ *                                                                   each other
  *   one-sided distance      no axis separates the pair from the     what slides along a surface has
  *                           start of its nodes' times; its parents  many neighbours there, and the
  *                           slid (while it pays); motion along a    distance separates it from all

@@ -223,6 +223,8 @@ static inline vec3 random_axis(uint64_t *state)
     return n;
 }
 
+static const vec3 NO_AXIS = {{0, 0, 0}};
+
 /* Two caps of radius 1 that bulge at each other along a tilted normal, h wide, `gap` apart. */
 static inline meeting two_caps(double h, double radius_b, double gap)
 {

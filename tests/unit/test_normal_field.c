@@ -18,13 +18,14 @@ START_TEST(neither_axes_nor_field_of_normals_lose_a_meeting_alone)
         vec3 axis = random_axis(&state);
         difference_at(&m.a, &m.b, &m.window, &r);
         check_share_left(&r, m.t, fixed_axes_cut(&r, m.gamma_clear, &axes, &axis, NULL), &axes, k);
-        check_share_left(&r, m.t, normal_field_cut(&r, m.gamma_clear, &field, NULL), &field, k);
+        check_share_left(&r, m.t, normal_field_cut(&r, axis, m.gamma_clear, &field, NULL), &field,
+                         k);
     }
 }
 END_TEST
 
-/* Axes cut nothing off the window, the field of normals all of it. */
-static void check_only_field_parts(const meeting *m, int number)
+/* Axes cut nothing off the window, the field of normals all of it. `along`: where it begins. */
+static void check_only_field_parts(const meeting *m, vec3 along, int number)
 {
     difference r;
     w_range axes = {-1, 1}, field = {-1, 1};
@@ -32,15 +33,15 @@ static void check_only_field_parts(const meeting *m, int number)
     difference_at(&m->a, &m->b, &m->window, &r);
     ck_assert(fixed_axes_cut(&r, 1e-6, &axes, &axis, NULL));
     ck_assert(axes.lo == -1 && axes.hi == 1);
-    ck_assert_msg(!normal_field_cut(&r, 1e-6, &field, NULL), "case %d: [%g, %g]", number, field.lo,
-                  field.hi);
+    ck_assert_msg(!normal_field_cut(&r, along, 1e-6, &field, NULL), "case %d: [%g, %g]", number,
+                  field.lo, field.hi);
 }
 
 START_TEST(the_field_of_normals_parts_caps_that_no_axis_does)
 {
     /* A in B's hollow, both curved the same way, 1 and 1.1 in radius: any axis sees both bends */
     const meeting m = two_caps(0.1, 1.1, 1e-3);
-    check_only_field_parts(&m, 0);
+    check_only_field_parts(&m, NO_AXIS, 0);
 }
 END_TEST
 
@@ -63,7 +64,76 @@ START_TEST(the_field_of_normals_turns_with_time)
         meeting m = two_caps(0.1, 1, 1e-4);
         if (side != 1) turn_cap(&m.a, 0.1, 0.1);
         if (side != 0) turn_cap(&m.b, 0.1, side == 1 ? 0.1 : -0.1);
-        check_only_field_parts(&m, side);
+        check_only_field_parts(&m, NO_AXIS, side);
+    }
+}
+END_TEST
+
+/* The normal of two_caps; and nearly that. */
+static const double NORMAL[3] = {0.48, 0.6, 0.64};
+static const vec3 ACROSS = {{0.5, 0.61, 0.62}};
+
+/* Makes one side of two_caps an edge along u, which bends by `bend`, or a corner: the other slopes
+ * leave the plane, away from the other side. */
+static void make_edge(meeting *m, int side, double bend, bool is_corner)
+{
+    const double *n = NORMAL, away = side == 0 ? -1 : 1;
+    node *x = side == 0 ? &m->a : &m->b;
+    for (int i = 0; i < 3; ++i) {
+        const double slope[2] = {is_corner ? 0.05 * away * n[i] : 0, 0.05 * away * n[i]};
+        x->f.quu[i] = bend * n[i];
+        x->f.qvv[i] = 0;
+        x->f.bu[i] = (is_corner ? 0.1 : 1) * x->f.bu[i] + slope[0];
+        x->f.bv[i] = 0.1 * x->f.bv[i] + slope[1];
+        x->f.a[i] += slope[0] + slope[1];
+    }
+}
+
+/* Turns the slopes of a side by a quarter turn. */
+static void swap_parameters(node *x)
+{
+    double *const pairs[2][2] = {{x->f.bu, x->f.bv}, {x->f.quu, x->f.qvv}};
+    for (int k = 0; k < 2; ++k)
+        for (int i = 0; i < 3; ++i) {
+            const double was = pairs[k][0][i];
+            pairs[k][0][i] = pairs[k][1][i];
+            pairs[k][1][i] = was;
+        }
+}
+
+/* Moves B within the plane, so that what is nearest is not in the middle. */
+static void move_aside(meeting *m)
+{
+    const double u[3] = {0.8, 0, -0.6}, v[3] = {-0.36, 0.8, -0.48};
+    for (int i = 0; i < 3; ++i) m->b.f.a[i] += 0.03 * u[i] + 0.02 * v[i];
+}
+
+START_TEST(the_field_of_normals_parts_edges_that_bend_towards_each_other)
+{
+    for (int number = 0; number < 4; ++number) {
+        meeting m = two_caps(0.1, 1, 1e-3);
+        swap_parameters(&m.b);
+        make_edge(&m, 0, 0.003, false);
+        make_edge(&m, 1, -0.003, false);
+        if (number % 2 == 1) swap_parameters(&m.a);
+        if (number / 2 == 1) swap_parameters(&m.b);
+        move_aside(&m);
+        check_only_field_parts(&m, ACROSS, number);
+    }
+}
+END_TEST
+
+START_TEST(the_field_of_normals_parts_an_edge_or_a_corner_from_a_hollow_face)
+{
+    for (int number = 0; number < 4; ++number) {
+        const int side = number % 2;
+        const double up = side == 0 ? -1 : 1;
+        meeting m = two_caps(0.1, 1, 2e-3);
+        node *face = side == 0 ? &m.b : &m.a;
+        for (int i = 0; i < 3; ++i) face->f.quu[i] = face->f.qvv[i] = 0.005 * up * NORMAL[i];
+        make_edge(&m, side, 0.008 * up, number / 2 == 1);
+        move_aside(&m);
+        check_only_field_parts(&m, ACROSS, number);
     }
 }
 END_TEST
@@ -79,11 +149,13 @@ static void add_across(uint64_t *state, double *x, double size)
 }
 
 /* Two nearly parallel surfaces that bend little, but move and are warped within their planes as
- * much as they are wide. At s and m->t they are g apart, nearly across. */
-static meeting warped(uint64_t *state, double s[4], double g)
+ * much as they are wide. At s and m->t they are g apart, nearly across. Bits of `edges`: sides that
+ * have only an edge there, since they leave the plane along v; two edges cross. */
+static meeting warped(uint64_t *state, double s[4], double g, int edges)
 {
     meeting m = two_caps(1, 1, 0);
     double apart[3] = {0.48 * g, 0.6 * g, 0.64 * g};
+    if (edges == 3) swap_parameters(&m.b);
     node *both[2] = {&m.a, &m.b};
     for (int side = 0; side < 2; ++side) {
         quadratic3 *f = &both[side]->f;
@@ -97,6 +169,11 @@ static meeting warped(uint64_t *state, double s[4], double g)
                 fabs(f->bt[i]) + 2 * fabs(f->qtt[i]) + fabs(f->qut[i]) + fabs(f->qvt[i]);
     }
     for (int k = 0; k < 4; ++k) s[k] = suite_end_or_inside(state);
+    for (int side = 0; side < 2; ++side) {
+        if ((edges >> side & 1) == 0) continue;
+        s[2 * side + 1] = -1;
+        for (int i = 0; i < 3; ++i) both[side]->f.bv[i] += (side == 0 ? -4 : 4) * NORMAL[i];
+    }
     m.t = 0.5 + 0.5 * suite_end_or_inside(state);
     add_across(state, apart, g * random_power(state, -8, -3));
     for (int i = 0; i < 3; ++i) {
@@ -109,10 +186,10 @@ static meeting warped(uint64_t *state, double s[4], double g)
 START_TEST(the_field_of_normals_proves_no_more_than_the_distance)
 {
     uint64_t state = suite_seed() + 5;
-    int proved = 0;
+    int proved[4] = {0, 0, 0, 0};
     for (int k = 0; k < suite_times(400000); ++k) {
         double s[4];
-        const meeting m = warped(&state, s, random_power(&state, -12, 1));
+        const meeting m = warped(&state, s, random_power(&state, -12, 1), k % 4);
         const double gap =
             (double)sqrtl(m.gap[0] * m.gap[0] + m.gap[1] * m.gap[1] + m.gap[2] * m.gap[2]);
         difference r;
@@ -120,15 +197,15 @@ START_TEST(the_field_of_normals_proves_no_more_than_the_distance)
         gap_lines lines;
         gap_lines_begin(&lines);
         difference_at(&m.a, &m.b, &m.window, &r);
-        normal_field_cut(&r, 0, &all, &lines);
+        normal_field_cut(&r, k % 4 == 0 ? NO_AXIS : ACROSS, 0, &all, &lines);
         if (lines.count == 1) continue;
         const double w = (m.t - r.mid) / r.half;
         const double lower = lines.line[1].low + lines.line[1].drift * w;
-        proved += lower > 0.25 * gap;
+        proved[k % 4] += lower > 0.25 * gap;
         ck_assert_msg(lower <= gap * (1 + 1e-9), "case %d: %g apart at w = %g, proved %g", k, gap,
                       w, lower);
     }
-    ck_assert_int_gt(proved, suite_times(400000) / 100);
+    for (int k = 0; k < 4; ++k) ck_assert_int_gt(proved[k], suite_times(100000) / 100);
 }
 END_TEST
 
@@ -162,4 +239,6 @@ SUITE_MAIN("normal_field", neither_axes_nor_field_of_normals_lose_a_meeting_alon
            the_field_of_normals_turns_with_time,
            the_field_of_normals_proves_no_more_than_the_distance,
            the_field_of_normals_parts_caps_that_no_axis_does,
+           the_field_of_normals_parts_edges_that_bend_towards_each_other,
+           the_field_of_normals_parts_an_edge_or_a_corner_from_a_hollow_face,
            caps_that_touch_with_their_tops_are_not_parted_at_any_size)

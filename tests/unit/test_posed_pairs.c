@@ -228,7 +228,8 @@ START_TEST(neither_axes_nor_field_of_normals_lose_a_meeting_alone)
         check_share_left(&r, m.t, fixed_axes_cut_along(&r, m.gamma_clear, &given, m.along), &given,
                          k);
         check_share_left(&r, m.t, fixed_axes_cut(&r, m.gamma_clear, &axes, &axis, NULL), &axes, k);
-        check_share_left(&r, m.t, normal_field_cut(&r, m.gamma_clear, &field, NULL), &field, k);
+        check_share_left(&r, m.t, normal_field_cut(&r, axis, m.gamma_clear, &field, NULL), &field,
+                         k);
     }
 }
 END_TEST

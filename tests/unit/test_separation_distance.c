@@ -170,8 +170,8 @@ START_TEST(infinities_and_nans_never_part_anything)
             difference_at(&m.a, &m.b, &m.window, &r);
             ck_assert_msg(fixed_axes_cut(&r, 1e-6, &axes, &axis, NULL), "axes: coefficient %d, %g",
                           k, odd[o]);
-            ck_assert_msg(normal_field_cut(&r, 1e-6, &field, NULL), "field: coefficient %d, %g", k,
-                          odd[o]);
+            ck_assert_msg(normal_field_cut(&r, NO_AXIS, 1e-6, &field, NULL),
+                          "field: coefficient %d, %g", k, odd[o]);
             ck_assert(axes.lo == -1 && axes.hi == 1 && field.lo == -1 && field.hi == 1);
         }
 }
