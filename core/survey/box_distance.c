@@ -224,6 +224,8 @@ static imp_code ask_middle(imp_survey *s, survey_box *box, imp_scene *scene, dou
     const imp_code code =
         box_run_distance(s, box, scene, box_times(s, box), within, tolerance, found, error);
     if (code != IMP_SUCCESS) return code;
+    box->near = found->upper;
+    box->cost = found->stats.pairs;
     const double lower = total > 0 ? difference_lower(found->lower, total) : found->lower;
     survey_proof_note(s, -INFINITY, lower);
     if (lower > box->key) box->key = lower;
@@ -256,6 +258,26 @@ static imp_code measure_middle(imp_survey *s, survey_box *box, imp_scene *scene,
     return is_nearer && is_moved ? descend(s, &s->pairs.at[box->pair], &found, state, error) : code;
 }
 
+/* Below so many pairs, brackets at the middles of smaller boxes cost less than a search by ways,
+ * which takes 100 to 1000; so far that two halvings are enough. core/MEASUREMENTS.md has what other
+ * limits cost. */
+static const double CHEAP_PAIRS = 128, EXCESS_LEAST = 0.25;
+
+/* Whether a box is better halved until brackets at middles close it. Where the bodies are as far
+ * apart as at the middle of the box it is a half of, a box is closed once its shift is no more than
+ * what that exceeds the distance that is enough by. With k parameters that shift alike, this makes
+ * (shift / excess)^k boxes; each takes about the pairs that the middle took. */
+static bool is_better_halved(const imp_survey *s, const survey_box *box, double total)
+{
+    const double excess = box->near - survey_distance_enough(s);
+    double most = 0;
+    for (size_t j = 0; j < s->parameters; ++j)
+        if (s->box.shift[0][j] > most) most = s->box.shift[0][j];
+    if (!(excess > EXCESS_LEAST * total && excess < INFINITY && most > 0)) return false;
+    const double boxes = excess < total ? pow(total / excess, total / most) : 1;
+    return boxes * (double)box->cost < CHEAP_PAIRS;
+}
+
 static imp_code measure_distance(imp_survey *s, survey_box *box, const box_bounds *bounds,
                                  box_state *state, imp_error *error)
 {
@@ -263,7 +285,8 @@ static imp_code measure_distance(imp_survey *s, survey_box *box, const box_bound
     imp_scene *scene;
     imp_code code = box_scene(s, box, &scene, error);
     if (code != IMP_SUCCESS) return code;
-    if (is_moved) code = prove_enough(s, box, scene, bounds, state, error);
+    if (is_moved && !is_better_halved(s, box, bounds->total))
+        code = prove_enough(s, box, scene, bounds, state, error);
     if (code == IMP_SUCCESS && *state == BOX_OPEN && !(box->key >= survey_distance_enough(s)))
         code = measure_middle(s, box, scene, bounds->total, state, error);
     imp_scene_free(scene);

@@ -16,7 +16,9 @@ typedef struct survey_box {
     uint64_t number; /* in the order of their making */
     size_t pair;     /* of bodies */
     double share;    /* of the whole box of values */
-    double range[];  /* lo, hi of each parameter */
+    double near; /* distance known at the middle of the box that it is a half of; INFINITY: none */
+    uint64_t cost;  /* pairs that this took */
+    double range[]; /* lo, hi of each parameter */
 } survey_box;
 
 typedef struct box_queue {

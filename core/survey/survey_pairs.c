@@ -143,6 +143,8 @@ imp_code survey_add_roots(imp_survey *s, double key, imp_error *error)
         box->number = s->counts.made++;
         box->pair = k;
         box->share = 1;
+        box->near = INFINITY;
+        box->cost = 0;
         for (size_t j = 0; j < s->parameters; ++j) {
             box->range[2 * j] = s->lo[j];
             box->range[2 * j + 1] = s->hi[j];

@@ -119,7 +119,7 @@ START_TEST(a_least_distance_inside_of_the_ranges_is_not_missed)
         imp_survey_options how = imp_survey_options_default();
         asked.tolerance = k % 2 == 0 ? 1e-4 : 0.02;
         size_t told = 0;
-        how.max_boxes = 60;
+        how.max_boxes = 150;
         how.sink = judge_box;
         how.sink_context = &told;
         const answer found = survey(scene, 1e-3, &asked, &how);
