@@ -139,7 +139,7 @@ plugins_wave_la_LDFLAGS = $(plugin_ldflags)
 noinst_HEADERS += \
     plugins/common/capped.h \
     plugins/common/near.h \
-    plugins/common/squares.h \
+    plugins/common/coil.h plugins/common/squares.h \
     plugins/common/polynomial.h \
     plugins/common/publish.h \
     plugins/patch/bernstein.h \
@@ -275,6 +275,8 @@ plugins_subdivision_la_LIBADD = plugins/libsubdivision.la plugins/libpatch.la pl
 noinst_LTLIBRARIES += plugins/libexpression.la
 plugins_libexpression_la_SOURCES = \
     plugins/expression/builder.c plugins/expression/builder.h \
+    plugins/expression/coil_form.c plugins/expression/coil_form.h \
+    plugins/expression/coil_surface.c plugins/expression/coil_surface.h \
     plugins/expression/expression.c plugins/expression/expression.h \
     plugins/expression/functions.h \
     plugins/expression/names.c plugins/expression/names.h \

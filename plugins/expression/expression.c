@@ -1,6 +1,7 @@
 /* SPDX-FileCopyrightText: The Impinge authors
  * SPDX-License-Identifier: Apache-2.0 */
 #include "plugins/expression/builder.h"
+#include "plugins/expression/coil_form.h"
 #include "plugins/expression/names.h"
 #include "plugins/expression/parser.h"
 
@@ -128,21 +129,41 @@ static imp_status assemble(const builder *b, size_t variables, const uint16_t ou
     return IMP_STATUS_PARAMETER;
 }
 
-imp_status expression_compile(const expression_scope *scope, const char *const text[3],
-                              expression_program **program, expression_error *error)
+/* `form` may be NULL. */
+static imp_status compile(const expression_scope *scope, const char *const text[3], builder *b,
+                          allocation *a, expression_program **program, coil_form *form,
+                          expression_program **radius, expression_error *error)
+{
+    const size_t variables = scope->variable_count;
+    uint16_t out[3];
+    if (!read_texts(scope, text, b, out, error)) return IMP_STATUS_PARAMETER;
+    imp_status status = assemble(b, variables, out, a, program, error);
+    if (status != IMP_STATUS_OK || form == NULL || !coil_form_find(b, out, form)) return status;
+    const uint16_t same[3] = {form->radius, form->radius, form->radius};
+    status = assemble(b, variables, same, a, radius, error);
+    if (status != IMP_STATUS_OK) expression_free(*program);
+    return status;
+}
+
+imp_status expression_compile_coil(const expression_scope *scope, const char *const text[3],
+                                   expression_program **program, coil_form *form,
+                                   expression_program **radius, expression_error *error)
 {
     assert(scope->variable_count > 0 && scope->variable_count <= EXPRESSION_VARIABLES_MAX);
-    uint16_t out[3];
     imp_status status = IMP_STATUS_INTERNAL;
     builder *b = malloc(sizeof *b);
     allocation *a = malloc(sizeof *a);
-    if (a != NULL && b != NULL)
-        status = read_texts(scope, text, b, out, error)
-                     ? assemble(b, scope->variable_count, out, a, program, error)
-                     : IMP_STATUS_PARAMETER;
+    if (radius != NULL) *radius = NULL;
+    if (a != NULL && b != NULL) status = compile(scope, text, b, a, program, form, radius, error);
     free(a);
     free(b);
     return status;
+}
+
+imp_status expression_compile(const expression_scope *scope, const char *const text[3],
+                              expression_program **program, expression_error *error)
+{
+    return expression_compile_coil(scope, text, program, NULL, NULL, error);
 }
 
 /* --- Running ---------------------------------------------------------------------------------- */

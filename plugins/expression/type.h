@@ -49,8 +49,10 @@ static inline imp_model whole_range(double lo, double hi, int j)
     return imp_model_collapse(range);
 }
 
+/* `form` and `radius` as in expression_compile_coil, or both NULL. */
 static inline imp_status compile_texts(const imp_value *values, expression_scope *scope,
-                                       expression_program **program, imp_create_error *why)
+                                       expression_program **program, struct coil_form *form,
+                                       expression_program **radius, imp_create_error *why)
 {
     const char *const text[3] = {values[TEXT_X].string[0], values[TEXT_Y].string[0],
                                  values[TEXT_Z].string[0]};
@@ -58,7 +60,7 @@ static inline imp_status compile_texts(const imp_value *values, expression_scope
     scope->constant_value = values[CONSTANTS].number;
     scope->constant_count = values[CONSTANTS].count;
     expression_error error;
-    imp_status status = expression_compile(scope, text, program, &error);
+    imp_status status = expression_compile_coil(scope, text, program, form, radius, &error);
     if (status != IMP_STATUS_PARAMETER) return status;
     int row = error.at < 3                          ? TEXT_X + error.at
               : error.at == EXPRESSION_AT_CONSTANTS ? CONSTANTS

@@ -29,7 +29,7 @@ static imp_status compile(const imp_value *values, map_instance *s, imp_create_e
     for (int j = 0; j < 3; ++j) whole[j] = imp_unbounded(7);
     whole[3] = whole_range(s->lo, s->hi, 2);
     expression_scope scope = {.variable = names, .whole = whole, .variable_count = 4};
-    return compile_texts(values, &scope, &s->program, why);
+    return compile_texts(values, &scope, &s->program, NULL, NULL, why);
 }
 
 static imp_status keep(const imp_value *values, map_instance *s)

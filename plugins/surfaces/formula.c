@@ -2,6 +2,7 @@
  * SPDX-License-Identifier: Apache-2.0 */
 
 #include "plugins/common/publish.h"
+#include "plugins/expression/coil_surface.h"
 #include "plugins/expression/type.h"
 
 #include <impinge/formula.h>
@@ -20,8 +21,11 @@ static const imp_parameter parameters[] = {
 
 typedef struct formula_instance {
     expression_program *program;
-    char *text; /* what it prints */
+    expression_program *radius; /* of `coil`, or NULL */
+    char *text;                 /* what it prints */
     double lo[3], hi[3];
+    coil_surface coil;
+    bool is_coil;
 } formula_instance;
 
 static imp_status read_domain(const imp_value *values, formula_instance *s, imp_create_error *why)
@@ -42,13 +46,15 @@ static imp_status compile(const imp_value *values, formula_instance *s, imp_crea
     imp_model whole[3];
     for (int j = 0; j < 3; ++j) whole[j] = whole_range(s->lo[j], s->hi[j], j);
     expression_scope scope = {.variable = names, .whole = whole, .variable_count = 3};
-    return compile_texts(values, &scope, &s->program, why);
+    return compile_texts(values, &scope, &s->program, &s->coil.form, &s->radius, why);
 }
 
 static imp_status keep(const imp_value *values, formula_instance *s)
 {
     s->text = keep_texts(values, s->lo, s->hi, true);
-    if (s->text == NULL) expression_free(s->program);
+    if (s->text == NULL) expression_free(s->program), expression_free(s->radius);
+    s->coil.radius = s->radius;
+    s->is_coil = s->text != NULL && s->radius != NULL && coil_surface_begin(&s->coil, s->lo, s->hi);
     return s->text != NULL ? IMP_STATUS_OK : IMP_STATUS_INTERNAL;
 }
 
@@ -70,6 +76,7 @@ static void formula_destroy(void *self)
 {
     formula_instance *s = self;
     expression_free(s->program);
+    expression_free(s->radius);
     free(s->text);
     free(s);
 }
@@ -97,6 +104,28 @@ static imp_status formula_eval(const void *self, size_t n, const double *p, doub
     return expression_points(((const formula_instance *)self)->program, n, p, x, error);
 }
 
+/* --- Coils ------------------------------------------------------------------------------------ */
+
+static imp_model formula_gap(const void *self, imp_model x, imp_model y, imp_model z, imp_model t)
+{
+    const imp_model at[3] = {x, y, z};
+    (void)t;
+    return coil_surface_gap(&((const formula_instance *)self)->coil, at);
+}
+IMP_DISTANCE_FORMULA(formula_gap)
+
+static imp_status formula_distance(const void *self, const imp_model point[4], imp_model *distance)
+{
+    if (!((const formula_instance *)self)->is_coil) return IMP_STATUS_UNBOUNDED;
+    return formula_gap_distance(self, point, distance);
+}
+
+static imp_status formula_symmetry(const void *self, imp_symmetry *symmetry)
+{
+    const formula_instance *s = self;
+    return s->is_coil ? coil_surface_symmetry(&s->coil, symmetry) : IMP_STATUS_UNBOUNDED;
+}
+
 static imp_status formula_write_formula(const void *self, const imp_text_sink *to)
 {
     imp_add_text(to, ((const formula_instance *)self)->text);
@@ -106,6 +135,8 @@ static imp_status formula_write_formula(const void *self, const imp_text_sink *t
 static const imp_surface_type formula = {
     IMP_TYPE_FIELDS(imp_surface_type, "formula", formula, formula_destroy),
     .flags = IMP_FLAG_ABSENT_OUTSIDE_TIMES,
+    .distance = formula_distance,
+    .symmetry = formula_symmetry,
     .write_formula = formula_write_formula,
     .summary = "any surface, given by formulas",
     .equation = "(x, y, z), each a text in u, v, t with + - * / ^, pi, e, constants, and abs sqrt "

@@ -1,9 +1,8 @@
 /* SPDX-FileCopyrightText: The Impinge authors
  * SPDX-License-Identifier: Apache-2.0 */
 
-#include "plugins/common/near.h"
+#include "plugins/common/coil.h"
 #include "plugins/common/publish.h"
-#include "plugins/common/squares.h"
 
 #include <impinge/formula.h>
 #include <impinge/formula_text.h>
@@ -105,8 +104,9 @@ static void thread_domain(const void *self, double lo[3], double hi[3])
     imp_set_domain(lo, hi, 0, IMP_TWO_PI_UPPER, -0.5, 0.5);
 }
 
-static imp_model radius_at(const thread_instance *s, imp_model phase)
+static imp_model radius_at(const void *self, imp_model phase)
 {
+    const thread_instance *s = self;
     imp_model sum = imp_num(0);
     for (size_t k = 0; k < s->count; ++k)
         sum = imp_add(sum, imp_scale(imp_cos(imp_scale(phase, (double)(k + 1))), s->profile[k]));
@@ -128,27 +128,12 @@ static void thread_formula(const void *self, imp_model u, imp_model v, imp_model
 }
 IMP_SURFACE_FORMULA(thread_formula)
 
-/* --- Distance
- * ---------------------------------------------------------------------------------------
- *
- * Let a point have cylindrical coordinates (q, theta, z) about the axis, phase phi = starts theta -
- * 2 pi z / pitch, and F = q - R(phi), which is 0 on the endless thread. At q > 0
- *
- *   |grad F|^2 = 1 + R'(phi)^2 |grad phi|^2,   |grad phi|^2 = (2 pi / pitch)^2 + (starts / q)^2.
- *
- * Lemma (way). Let p be a point, y the nearest to it of the endless thread, d how far apart they
- * are, and m > 0 at most the least radius. Since the point of the thread that lies radially from p
- * is |F(p)| away, d <= |F(p)|. The points between p and y are s from p and d - s from y, s in
- * [0, d], so that their q is at least q_p - s and m - (d - s): at least the mean of both,
- *
- *   q >= (q_p + m - d) / 2,   and   q >= m - d.
- *
- * There phi is no farther from that of p than d times the greatest |grad phi|. So where S >= |grad
- * F| all the way, |F(p)| = |F(p) - F(y)| <= S d. */
+/* --- Distance -------------------------------------------------------------------------------- */
 
 /* At most R' where the phase is within the range. */
-static double slope_upper(const thread_instance *s, imp_interval phase)
+static double slope_upper(const void *self, imp_interval phase)
 {
+    const thread_instance *s = self;
     imp_interval sum = imp_interval_make(0, 0);
     for (size_t k = 0; k < s->count; ++k) {
         const double order = (double)(k + 1);
@@ -159,62 +144,21 @@ static double slope_upper(const thread_instance *s, imp_interval phase)
     return imp_interval_mag(sum);
 }
 
-static double hypot_upper(double x, double y)
-{
-    return imp_round_up(sqrt(imp_sum_up(imp_round_up(x * x) + imp_round_up(y * y))));
-}
-
-/* S at most, for ways no longer than `way` from points with these phases, on which q >= least >
- * 0. */
-static double steepness_upper(const thread_instance *s, imp_interval phase, double way,
-                              double least)
-{
-    const double wave = imp_sum_up(fabs(s->along_z.value) + s->along_z.error);
-    const double twist = hypot_upper(wave, imp_round_up(s->starts / least));
-    const double more = imp_round_up(way * twist);
-    const imp_interval near = imp_interval_add(phase, imp_interval_make(-more, more));
-    return hypot_upper(1, imp_round_up(slope_upper(s, near) * twist));
-}
-
-/* A factor that makes F a distance. Lemma. Let |F| <= most and q >= nearest for all points p, and h
- * = m / 2. With q >= (nearest + m - most) / 2 all the way the factor may be 1 / S. And where d <=
- * h, q >= h all the way; where d > h, a factor of h / most or less leaves |F| below d. */
-static double factor_lower(const thread_instance *s, imp_interval phase, double most,
-                           double nearest)
-{
-    const double half = 0.5 * s->root;
-    const double least = 0.5 * imp_sum_down(imp_sum_down(nearest + s->root) - most);
-    const double way = imp_smaller(most, half);
-    double open = 0, limited = inverse_lower(steepness_upper(s, phase, way, half));
-    if (least > 0) open = imp_larger(inverse_lower(steepness_upper(s, phase, most, least)), 0);
-    if (most > half) limited = imp_smaller(imp_round_down(half / most), limited);
-    return imp_larger(limited, open);
-}
-
-/* The angle about the axis, off by whole turns. Lemma. With (c, r) any vector but 0, (x', y') = (x
- * c + y r, y c - x r) has the angle of (x, y) less that of (c, r), and |(c, r)| q as its length. */
-static imp_model angle_of(const imp_model m[2], imp_model q)
-{
-    const double size = imp_larger(fabs(m[0].a), fabs(m[1].a));
-    const double c = m[0].a / size, r = m[1].a / size;
-    const imp_model ahead = imp_add(imp_scale(m[0], c), imp_scale(m[1], r));
-    const imp_model aside = imp_sub(imp_scale(m[1], c), imp_scale(m[0], r));
-    if (!(ahead.lo > 0 && q.lo > 0)) return imp_unbounded(7);
-    const imp_model length = imp_sqrt(imp_add(imp_sqr(imp_num(c)), imp_sqr(imp_num(r))));
-    return imp_add(imp_asin(imp_div(aside, imp_mul(q, length))), imp_atan2(imp_num(r), imp_num(c)));
-}
-
 /* From the endless thread. */
 static imp_model thread_gap(const void *self, imp_model x, imp_model y, imp_model z, imp_model t)
 {
     const thread_instance *s = self;
-    const imp_model m[2] = {imp_shift(x, -s->center[0]), imp_shift(y, -s->center[1])};
-    const imp_model q = imp_sqrt(sum_of_squares(m, 2)), turn = imp_scale(angle_of(m, q), s->starts);
-    const imp_model phase = imp_sub(turn, near_scale(imp_shift(z, -s->center[2]), s->along_z));
-    const imp_model f = imp_sub(q, radius_at(s, phase));
+    const coil c = {near_exact(s->starts),
+                    s->along_z,
+                    near_exact(0),
+                    s->root,
+                    INFINITY,
+                    s,
+                    radius_at,
+                    slope_upper};
+    const imp_model gap = coil_gap(&c, imp_shift(x, -s->center[0]), imp_shift(y, -s->center[1]),
+                                   imp_shift(z, -s->center[2]));
     (void)t;
-    const imp_model gap = imp_scale(
-        f, factor_lower(s, imp_model_range(&phase), imp_interval_mag(imp_model_range(&f)), q.lo));
     return imp_add(gap, imp_between(-s->lead_off, s->lead_off));
 }
 IMP_DISTANCE_FORMULA(thread_gap)

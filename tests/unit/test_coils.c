@@ -1,0 +1,234 @@
+/* SPDX-FileCopyrightText: The Impinge authors
+ * SPDX-License-Identifier: Apache-2.0 */
+#include <config.h>
+
+#include <stdio.h>
+#include <string.h>
+
+#include "plugins/expression/coil_surface.h"
+#include "tests/support/suite.h"
+
+/* Formulas that are found to be coils: distances from them, also of points that screw motions have
+ * moved, against dense samples of the surface; and formulas that are none. */
+
+#define TWO_PI 6.283185307179586476925286766559005768L
+
+enum { TEXTS = 120, POINTS = 16, GRID = 32 };
+
+typedef struct coil_text {
+    char text[3][256];
+    double lo[2], hi[2];
+} coil_text;
+
+/* --- A formula and its coil ------------------------------------------------------------------- */
+
+typedef struct kit {
+    expression_program *program, *radius;
+    coil_surface coil;
+    bool is_coil;
+    double lo[2], hi[2];
+} kit;
+
+static kit kit_of(const coil_text *of)
+{
+    static const char *const names[] = {"u", "v", "t"};
+    const char *const text[3] = {of->text[0], of->text[1], of->text[2]};
+    imp_model whole[3];
+    for (int j = 0; j < 3; ++j) {
+        whole[j] = imp_unbounded(1u << j);
+        if (j < 2) whole[j].lo = of->lo[j], whole[j].hi = of->hi[j];
+    }
+    const expression_scope scope = {.variable = names, .whole = whole, .variable_count = 3};
+    kit k;
+    expression_error error;
+    const imp_status status =
+        expression_compile_coil(&scope, text, &k.program, &k.coil.form, &k.radius, &error);
+    ck_assert_msg(status == IMP_STATUS_OK, "%s | %s | %s: %s", text[0], text[1], text[2],
+                  error.message);
+    memcpy(k.lo, of->lo, sizeof k.lo);
+    memcpy(k.hi, of->hi, sizeof k.hi);
+    k.coil.radius = k.radius;
+    k.is_coil = k.radius != NULL && coil_surface_begin(&k.coil, k.lo, k.hi);
+    return k;
+}
+
+static void kit_free(kit *k)
+{
+    expression_free(k->program);
+    expression_free(k->radius);
+}
+
+/* --- The nearest point ------------------------------------------------------------------------ */
+
+static double apart(const kit *k, const double p[3], const double x[3])
+{
+    double y[3], sum = 0;
+    ck_assert_int_eq(expression_point(k->program, p, y, NULL), IMP_STATUS_OK);
+    for (int i = 0; i < 3; ++i) sum += (x[i] - y[i]) * (x[i] - y[i]);
+    return sqrt(sum);
+}
+
+/* A grid, then steps along u and v, halved where none comes nearer. */
+static double nearest(const kit *k, const double x[3])
+{
+    double best[3] = {0, 0, 0}, least = INFINITY;
+    for (int i = 0; i <= GRID; ++i)
+        for (int j = 0; j <= GRID; ++j) {
+            const double p[3] = {k->lo[0] + (k->hi[0] - k->lo[0]) * i / GRID,
+                                 k->lo[1] + (k->hi[1] - k->lo[1]) * j / GRID, 0};
+            const double now = apart(k, p, x);
+            if (now < least) least = now, memcpy(best, p, sizeof best);
+        }
+    for (double step = 1.0 / GRID; step > 0x1p-30;) {
+        const double before = least;
+        for (int way = 0; way < 4; ++way) {
+            double p[3] = {best[0], best[1], 0};
+            const int j = way / 2;
+            p[j] += (way % 2 ? -step : step) * (k->hi[j] - k->lo[j]);
+            p[j] = p[j] < k->lo[j] ? k->lo[j] : p[j] > k->hi[j] ? k->hi[j] : p[j];
+            const double now = apart(k, p, x);
+            if (now < least) least = now, memcpy(best, p, sizeof best);
+        }
+        if (!(least < before)) step *= 0.5;
+    }
+    return least;
+}
+
+/* --- Random coils ----------------------------------------------------------------------------- */
+
+/* zeta = p phi + kappa w, all coefficients dyadic, but for 2 pi. */
+static coil_text draw_text(uint64_t *random)
+{
+    static const double sizes[] = {0.25, 0.5, 1, -0.5, -1, 2};
+    coil_text of = {.lo = {-0.25, -1}, .hi = {1, 1.5}};
+    const double p = sizes[random_bits(random) % 6] * 0.5, ratio = sizes[random_bits(random) % 6];
+    const double kappa = p * ratio, a[2] = {1, (double)(random_bits(random) % 3) - 1};
+    const double w[2] = {(double)(random_bits(random) % 3) - 1, 1};
+    const int order = 1 + (int)(random_bits(random) % 3), axis = (int)(random_bits(random) % 3);
+    const bool is_mirrored = random_bits(random) % 2, in_turns = random_bits(random) % 2;
+    const char *const turn = in_turns ? "2*pi*" : "";
+    char radius[160], phi[64];
+    snprintf(radius, sizeof radius, "(1.5+%g*cos(%s%g*(%g*u+%g*v)+0.3)+%g*sin(%g*(%s(%g*u+%g*v))))",
+             random_between(random, 0.05, 0.3), turn, order * ratio, w[0], w[1],
+             random_between(random, -0.1, 0.1), 2 * order * ratio, turn, w[0], w[1]);
+    snprintf(phi, sizeof phi, "%s(%g*u+%g*v)+0.25", turn, a[0], a[1]);
+    const int i = (axis + (is_mirrored ? 2 : 1)) % 3, j = 3 - axis - i;
+    snprintf(of.text[i], sizeof of.text[i], "%s*cos(%s)+1.25", radius, phi);
+    snprintf(of.text[j], sizeof of.text[j], "sin(%s)*%s", phi, radius);
+    snprintf(of.text[axis], sizeof of.text[axis], "%g*u+%g*v-0.5", p * a[0] + kappa * w[0],
+             p * a[1] + kappa * w[1]);
+    if (!in_turns) of.lo[0] = -3, of.hi[0] = 4, of.lo[1] = -2, of.hi[1] = 3;
+    return of;
+}
+
+/* Moves x by a screw motion of the symmetry. */
+static void screw(const imp_symmetry *of, int axis, double angle, double x[3])
+{
+    const int i = (axis + 1) % 3, j = (axis + 2) % 3;
+    const long double c = cosl(angle), s = sinl(angle);
+    const long double hand = of->kind == IMP_SYMMETRY_SCREW_RIGHT ? 1 : -1;
+    const long double w[2] = {(long double)x[i] - of->center[i], (long double)x[j] - of->center[j]};
+    x[i] = (double)(of->center[i] + c * w[0] - s * w[1]);
+    x[j] = (double)(of->center[j] + s * w[0] + c * w[1]);
+    x[axis] = (double)(x[axis] + hand * angle / TWO_PI * of->axis[axis]);
+}
+
+/* What is claimed of a point. */
+static double claimed(const kit *k, const double x[3])
+{
+    const imp_model at[3] = {imp_num(x[0]), imp_num(x[1]), imp_num(x[2])};
+    const imp_model g = coil_surface_gap(&k->coil, at);
+    return fabs(g.a) - g.e;
+}
+
+typedef struct tally {
+    int judged, refuted, coils;
+    double sharpest;
+} tally;
+
+static void judge(const kit *k, uint64_t *random, double factor, tally *of)
+{
+    imp_symmetry symmetry = {0};
+    ck_assert_int_eq(coil_surface_symmetry(&k->coil, &symmetry), IMP_STATUS_OK);
+    for (int n = 0; n < POINTS; ++n) {
+        const double p[3] = {random_between(random, k->lo[0], k->hi[0]),
+                             random_between(random, k->lo[1], k->hi[1]), 0};
+        double x[3];
+        ck_assert_int_eq(expression_point(k->program, p, x, NULL), IMP_STATUS_OK);
+        const double off = random_power(random, -16, 0);
+        for (int i = 0; i < 3; ++i) x[i] += off * random_between(random, -1, 1);
+        const double claim = factor * claimed(k, x);
+        double most = nearest(k, x);
+        if (claim / most > of->sharpest) of->sharpest = claim / most;
+        of->refuted += claim > most * (1 + 1e-9) + 1e-12;
+        screw(&symmetry, k->coil.form.along, random_between(random, -4, 4), x);
+        most = nearest(k, x);
+        of->refuted += claim > most * (1 + 1e-9) + 1e-12;
+        of->judged += 2;
+    }
+}
+
+static tally try_all(double factor)
+{
+    uint64_t random = suite_seed();
+    tally of = {.judged = 0};
+    for (int n = 0; n < suite_times_at_least(TEXTS / 4); ++n) {
+        const coil_text text = draw_text(&random);
+        kit k = kit_of(&text);
+        of.coils += k.is_coil;
+        if (k.is_coil) judge(&k, &random, factor, &of);
+        kit_free(&k);
+    }
+    return of;
+}
+
+START_TEST(no_point_is_nearer_than_is_claimed)
+{
+    const tally of = try_all(1);
+    ck_assert_msg(of.refuted == 0, "of %d %d are refuted", of.judged, of.refuted);
+    ck_assert_msg(of.coils > TEXTS / 10, "%d are coils", of.coils);
+    ck_assert_msg(of.sharpest > 0.8, "%g of a distance is claimed at most", of.sharpest);
+}
+END_TEST
+
+/* The test above must be able to fail. */
+START_TEST(distances_that_are_too_large_are_found) { ck_assert(try_all(1.25).refuted > 0); }
+END_TEST
+
+/* --- Formulas that are none ------------------------------------------------------------------- */
+
+#define RADIUS(WAVE) "(2+0.1*cos(" WAVE "))"
+#define COIL(WAVE, Z)                                                                              \
+    {                                                                                              \
+        {RADIUS(WAVE) "*cos(u)", RADIUS(WAVE) "*sin(u)", Z}, {0, -1}, { 6, 1 }                     \
+    }
+
+START_TEST(what_is_no_coil_is_not_taken_for_one)
+{
+    static const coil_text truly = COIL("4*(v+u)", "0.25*v");
+    static const coil_text none[] = {
+        COIL("4.1*(v+u)", "0.25*v"),        /* not periodic where v is moved by a turn */
+        COIL("4*(v+u)", "0.25*v+0.01*v^2"), /* the lead changes */
+        COIL("4*(v+u)+v^2", "0.25*v"),      /* no wave of a linear form */
+        COIL("4*(v+u)+0*v+t", "0.25*v"),    /* moves */
+        COIL("4*(v+u)+sin(v)", "0.25*v"),   /* two directions */
+        COIL("4*(v+u)", "0.25*u+0.25*v+t"), /* moves */
+        COIL("4*(v+u)", "0.25*u+0.25*v"),   /* kappa is 0: no graph */
+        COIL("4*v", "0.25*v"),              /* p is 0: a surface of revolution */
+        {{"(2+cos(4*(v+u)))*cos(u)", "(2+cos(4*(v-u)))*sin(u)", "0.25*v"}, {0, -1}, {6, 1}},
+        {{"(2+cos(4*(v+u)))*cos(u)", "(2+cos(4*(v+u)))*sin(2*u)", "0.25*v"}, {0, -1}, {6, 1}},
+        {{"(1+cos(4*(v+u)))*cos(u)", "(1+cos(4*(v+u)))*sin(u)", "0.25*v"}, {0, -1}, {6, 1}},
+        {{"(2+v*cos(4*(v+u)))*cos(u)", "(2+v*cos(4*(v+u)))*sin(u)", "0.25*v"}, {0, -1}, {6, 1}}};
+    kit k = kit_of(&truly);
+    ck_assert(k.is_coil);
+    kit_free(&k);
+    for (size_t n = 0; n < sizeof none / sizeof *none; ++n) {
+        k = kit_of(&none[n]);
+        ck_assert_msg(!k.is_coil, "text %zu: %s", n, none[n].text[0]);
+        kit_free(&k);
+    }
+}
+END_TEST
+
+SUITE_MAIN("coils", no_point_is_nearer_than_is_claimed, distances_that_are_too_large_are_found,
+           what_is_no_coil_is_not_taken_for_one)
