@@ -94,6 +94,7 @@ tools_bench = \
     tools/bench/measure.c \
     tools/bench/patches.c \
     tools/bench/print.c \
+    tools/bench/saddles.c \
     tools/bench/scenes.c tools/bench/scenes.h \
     tools/bench/sets.c \
     tools/bench/stream.c \

@@ -9,7 +9,7 @@ load ../support/cli_helper
 
 setup_file() {
     export bench=$BATS_FILE_TMPDIR/bench.json
-    "$IMPINGE" bench figure7 bicubic spikes tori rates moving clearance conformal bodies surfaces batch \
+    "$IMPINGE" bench figure7 bicubic spikes tori rates moving clearance conformal saddles bodies surfaces batch \
         --method models --repeat 1 --up-to 1000 --json >"$bench"
 }
 
@@ -47,6 +47,13 @@ measured() {
 
 @test "a scene of moving patches takes at most 100 pairs in the mean" {
     measured 'row("bicubic"; "gamma 1e-06").pairs.mean <= 100'
+    measured 'row("saddles"; "random") | .verdicts.undecided == 0 and .pairs.mean <= 100'
+}
+
+@test "saddles in one another are decided, and take at most 20000 pairs where 1e-3 apart" {
+    measured '[.sets[] | select(.set == "saddles").cases[].methods[].verdicts.undecided] |
+        length == 5 and all(. == 0)'
+    measured 'row("saddles"; "saddles, 0.001 apart").pairs.max <= 20000'
 }
 
 @test "moving spheres take less than 1500 pairs at gamma 1e-10, and meet when the formula says" {
@@ -110,7 +117,7 @@ counts() { jq 'del(.. | .seconds?)' <<<"$output"; }
     output=$(<"$bench")
     valid bench
     json '[.sets[].set] == ["figure7", "bicubic", "spikes", "tori", "rates", "moving", "clearance",
-        "conformal", "bodies", "surfaces", "batch"]'
+        "conformal", "saddles", "bodies", "surfaces", "batch"]'
     json 'all(.sets[] | select(.set != "clearance" and .set != "batch").cases[].methods[];
         .method == "models" and .ratio == null)'
     run -0 small --json
@@ -189,7 +196,7 @@ counts() { jq 'del(.. | .seconds?)' <<<"$output"; }
     run -0 --separate-stderr "$IMPINGE" bench --method paper --max-pairs 1 --repeat 1 --json
     valid bench
     json '[.sets[].set] == ["figure7", "bicubic", "spikes", "tori", "rates", "moving"]'
-    [ "$(grep -c 'is for the default method only, and left out' <<<"$stderr")" -eq 8 ]
+    [ "$(grep -c 'is for the default method only, and left out' <<<"$stderr")" -eq 9 ]
     [[ $stderr == *"set 'bodies'"* ]]
 }
 

@@ -176,10 +176,10 @@ typedef struct bench_set {
 const bench_set *const *bench_sets_all(void);
 const bench_set *bench_set_find(const char *name);
 
-/* Machine parts that slide in each other; everyday scenes; scenes of many bodies; meshes of many
- * triangles; streams of scenes; proofs that are verified. */
-extern const bench_set bench_conformal, bench_parameters, bench_everyday, bench_bodies,
-    bench_surfaces, bench_batch, bench_certificates_set;
+/* Machine parts that slide in each other; nested saddles; everyday scenes; scenes of many bodies;
+ * meshes of many triangles; streams of scenes; proofs that are verified. */
+extern const bench_set bench_conformal, bench_saddles, bench_parameters, bench_everyday,
+    bench_bodies, bench_surfaces, bench_batch, bench_certificates_set;
 
 /* Returns whether the request measures any method of the set. */
 bool bench_set_is_measured(const bench_set *set, const bench_request *request);
@@ -195,9 +195,9 @@ exit_status bench_built(const bench_cases *list, const bench_request *request);
 /* A direction of unit length, uniform on the sphere. */
 void bench_direction(uint64_t *state, double n[3]);
 
-/* Adds `count` scenes of two random bicubic patches (bench_patches.c tells how they are drawn) to
- * the case, and those of the file that comes with the command. */
-void bench_add_patches(bench_cases *list, uint64_t seed, uint64_t count);
+/* Adds `count` scenes of two random patches of this degree in u and v (patches.c tells how they are
+ * drawn) to the case, and those of the file that comes with the command. */
+void bench_add_patches(bench_cases *list, uint64_t seed, int degree, uint64_t count);
 exit_status bench_add_file(bench_cases *list, const char *verb);
 
 /* --- Measuring and telling -------------------------------------------------------------------- */

@@ -42,7 +42,7 @@ static exit_status add_files(bench_cases *list, const bench_request *request)
 static exit_status build(bench_cases *list, const bench_request *request)
 {
     bench_begin(list, 1e-6, -1, "patches, gamma 1e-06");
-    bench_add_patches(list, request->seed, PATCHES + request->count);
+    bench_add_patches(list, request->seed, 3, PATCHES + request->count);
     bench_begin(list, 1e-4, -1, "shaft, c = 0.001");
     bench_add_pair(list, bench_text("cylinder radius=0.999 height=2 ! rotate rate=1"),
                    bench_text("cylinder height=2"));

@@ -11,7 +11,7 @@
 
 #include "tools/cli/input.h"
 
-/* Random moving bicubic patches, as X. Chen and others ("A
+/* Random moving patches, bicubic or of another degree, as X. Chen and others ("A
  * Time-Dependent Inclusion-Based Method for Continuous Collision Detection between Parametric
  * Surfaces", SIGGRAPH Asia 2024) draw them: control points uniform in [-1,1]^3, the first patch's
  * shifted by -n and the second's by n, a random direction of unit length; velocities uniform in
@@ -19,26 +19,28 @@
 
 /* --- Drawing ---------------------------------------------------------------------------------- */
 
-static void write_vectors(FILE *out, uint64_t *state, const double n[3], double side)
+static void write_vectors(FILE *out, uint64_t *state, int count, const double n[3], double side)
 {
-    for (int k = 0; k < 16; ++k) {
+    for (int k = 0; k < count; ++k) {
         double x[3];
         for (int i = 0; i < 3; ++i) x[i] = random_between(state, -1, 1) + side * n[i];
         fprintf(out, "%s[%.17g,%.17g,%.17g]", k > 0 ? "," : "", x[0], x[1], x[2]);
     }
 }
 
-static void write_patch(FILE *out, uint64_t *state, const double n[3], double side)
+static void write_patch(FILE *out, uint64_t *state, int degree, const double n[3], double side)
 {
-    fputs("{\"surfaces\":[{\"type\":\"bezier\",\"degree\":[3,3],\"points\":[", out);
-    write_vectors(out, state, n, side);
+    const int count = (degree + 1) * (degree + 1);
+    fprintf(out, "{\"surfaces\":[{\"type\":\"bezier\",\"degree\":[%d,%d],\"points\":[", degree,
+            degree);
+    write_vectors(out, state, count, n, side);
     fputs("],\"velocities\":[", out);
-    write_vectors(out, state, n, -side);
+    write_vectors(out, state, count, n, -side);
     fputs("]}]}", out);
 }
 
 /* Returns the next scene of the sequence; NULL: no memory. */
-static char *draw(uint64_t *state)
+static char *draw(uint64_t *state, int degree)
 {
     char *text = NULL;
     size_t size;
@@ -47,9 +49,9 @@ static char *draw(uint64_t *state)
     if (out == NULL) return NULL;
     bench_direction(state, n);
     fputs("{\"bodies\":[", out);
-    write_patch(out, state, n, -1);
+    write_patch(out, state, degree, n, -1);
     fputs(",", out);
-    write_patch(out, state, n, 1);
+    write_patch(out, state, degree, n, 1);
     fputs("]}", out);
     const bool complete = !ferror(out);
     if (fclose(out) == 0 && complete) return text;
@@ -57,9 +59,10 @@ static char *draw(uint64_t *state)
     return NULL;
 }
 
-void bench_add_patches(bench_cases *list, uint64_t seed, uint64_t count)
+void bench_add_patches(bench_cases *list, uint64_t seed, int degree, uint64_t count)
 {
-    for (uint64_t k = 0; k < count && !list->no_memory; ++k) bench_add_text(list, draw(&seed));
+    for (uint64_t k = 0; k < count && !list->no_memory; ++k)
+        bench_add_text(list, draw(&seed, degree));
 }
 
 /* --- The file --------------------------------------------------------------------------------- */

@@ -100,7 +100,7 @@ static exit_status build_bicubic(bench_cases *list, const bench_request *request
         if (request->count == 0) continue;
         bench_begin(list, gamma[k], -1, "seed %llu, gamma %g", (unsigned long long)request->seed,
                     gamma[k]);
-        bench_add_patches(list, request->seed, request->count);
+        bench_add_patches(list, request->seed, 3, request->count);
     }
     return status == EXIT_ANSWERED ? bench_built(list, request) : status;
 }
@@ -195,7 +195,7 @@ static exit_status build_rates(bench_cases *list, const bench_request *request)
         bench_add_head_on(list, widths[0]);
         bench_add_swing(list, widths[0]);
         bench_begin(list, gamma[k], -1, "patches, gamma %g", gamma[k]);
-        bench_add_patches(list, 1, 10);
+        bench_add_patches(list, 1, 3, 10);
     }
     return bench_built(list, request);
 }
@@ -252,6 +252,7 @@ static const bench_set *const all[] = {&figure7,
                                        &moving,
                                        &clearance_set,
                                        &bench_conformal,
+                                       &bench_saddles,
                                        &bench_parameters,
                                        &bench_everyday,
                                        &bench_bodies,

@@ -224,7 +224,7 @@ static exit_status build(bench_cases *list, const bench_request *request)
         bench_begin(list, 1e-6, -1, "%zu pairs of spheres", count);
         add_spheres(list, count);
         bench_begin(list, 1e-6, -1, "%zu pairs of patches", count);
-        bench_add_patches(list, 14, count);
+        bench_add_patches(list, 14, 3, count);
     }
     return bench_built(list, request);
 }
