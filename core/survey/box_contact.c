@@ -92,8 +92,8 @@ static imp_code ask_queries(imp_survey *s, survey_box *box, imp_scene *scene,
     const double coarse[2] = {is_fine ? s->question.gamma : clear + 0.25 * (total + between),
                               clear};
     const double share = box->share;
-    const bool is_limited = !is_fine && !box_is_unmoved(&s->pairs.at[box->pair]) &&
-                            box_limits_first(s, ROOMY_PAIRS_MOST);
+    const bool is_limited =
+        !is_fine && !box_is_unmoved(&s->pairs.at[box->pair]) && box_limits_first(s, box->limit);
     const double exact[2] = {s->question.gamma, s->question.gamma_clear};
     imp_result found;
     imp_code code =
@@ -110,6 +110,7 @@ static imp_code ask_queries(imp_survey *s, survey_box *box, imp_scene *scene,
     if (found.verdict == IMP_VERDICT_UNDECIDED) {
         if (is_limited && found.reason == IMP_REASON_PAIRS) {
             const bool is_half_proved = box->share <= 0.5 * share; /* it is asked about again */
+            if (!is_half_proved) box_raise_limit(box);
             return *state = is_half_proved ? BOX_WAITING : BOX_OPEN, IMP_SUCCESS;
         }
         const bool is_stuck = is_fine && found.reason == IMP_REASON_RESOLUTION;

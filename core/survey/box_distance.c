@@ -196,7 +196,7 @@ static imp_code prove_enough(imp_survey *s, survey_box *box, imp_scene *scene,
         return IMP_SUCCESS;
     query_times times = box_times(s, box);
     for (;;) {
-        const bool is_limited = box_limits_first(s, ROOMY_PAIRS_MOST);
+        const bool is_limited = box_limits_first(s, box->limit);
         const imp_code code =
             box_run_roomy(s, box, scene, bounds, times, coarse, exact, &found, error);
         if (code != IMP_SUCCESS) return code;
@@ -210,7 +210,10 @@ static imp_code prove_enough(imp_survey *s, survey_box *box, imp_scene *scene,
         }
         const double left = 0.5 * (times.end - times.start);
         times.start = found.t_lower;
-        if (s->proof != NULL || !(times.end - times.start <= left)) return IMP_SUCCESS;
+        if (s->proof != NULL || !(times.end - times.start <= left)) {
+            box_raise_limit(box);
+            return IMP_SUCCESS;
+        }
     }
 }
 

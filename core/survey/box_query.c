@@ -82,6 +82,11 @@ static uint64_t pairs_left(const imp_survey *s)
     return s->counts.stats.pairs < most ? most - s->counts.stats.pairs : 1;
 }
 
+void box_raise_limit(survey_box *box)
+{
+    if (box->limit < ROOMY_PAIRS_MOST) box->limit *= 2;
+}
+
 bool box_limits_first(const imp_survey *s, uint64_t pairs)
 {
     const uint64_t left = pairs_left(s);
@@ -191,7 +196,7 @@ imp_code box_run_roomy(imp_survey *s, const survey_box *box, imp_scene *scene,
     query_spread spread;
     imp_code code = survey_spread_make(s, box, bounds, exact, &spread, error);
     if (code == IMP_SUCCESS)
-        code = box_run_contact(s, box, scene, times, coarse, ROOMY_PAIRS_MOST,
+        code = box_run_contact(s, box, scene, times, coarse, box->limit,
                                spread.is_known ? &spread : NULL, result, error);
     survey_spread_clear(&spread);
     return code;

@@ -39,12 +39,17 @@ imp_code box_run_contact(imp_survey *s, const survey_box *proved, imp_scene *sce
                          query_times times, const double gamma[2], uint64_t pairs,
                          const query_spread *spread, imp_result *result, imp_error *error);
 
-/* A query with room takes no more pairs than this, then its box is halved: where room nearly fills
- * the gap, pairs become small before they are excluded, and halves take a tenth of them. The links
- * of real arms take the fewest pairs at 500 to 2000; at 4000 they take twice as many. */
-enum { ROOMY_PAIRS_MOST = 1000 };
+/* Pairs of a query with room. It takes no more than its box's limit, then the box is halved: where
+ * room nearly fills the gap, pairs become small before they are excluded, and halves take a tenth
+ * of them. The links of real arms take the fewest pairs with first limits of 500 to 2000; with 4000
+ * they take twice as many. Meshes that turn all around each other take thousands of pairs at any
+ * gap, however small the box: halves that a limit has made have twice that limit. */
+enum { ROOMY_PAIRS_LEAST = 1000, ROOMY_PAIRS_MOST = 64000 };
 
-/* Runs a query with room for the shift of two bodies, and that limit: `coarse` is {gamma,
+/* Raises the limit of a box, for its halves. */
+void box_raise_limit(survey_box *box);
+
+/* Runs a query with room for the shift of two bodies, and the box's limit: `coarse` is {gamma,
  * gamma_clear} with room. Pairs are also excluded by the directions in which the values move the
  * bodies (pair_spread.h), with the tolerances `exact`, which have no room. */
 imp_code box_run_roomy(imp_survey *s, const survey_box *box, imp_scene *scene,

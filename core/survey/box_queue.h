@@ -17,6 +17,7 @@ typedef struct survey_box {
     size_t pair;     /* of bodies */
     double share;    /* of the whole box of values */
     double near; /* distance known at the middle of the box that it is a half of; INFINITY: none */
+    uint64_t limit; /* pairs of its query with room, at most */
     uint64_t cost;  /* pairs that this took */
     double range[]; /* lo, hi of each parameter */
 } survey_box;

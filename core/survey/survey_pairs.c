@@ -7,7 +7,7 @@
 
 #include "core/base/status.h"
 #include "core/common/array.h"
-#include "core/survey/survey_internal.h"
+#include "core/survey/box_question.h"
 
 /* --- Which parameters move two bodies --------------------------------------------------------- */
 
@@ -145,6 +145,7 @@ imp_code survey_add_roots(imp_survey *s, double key, imp_error *error)
         box->share = 1;
         box->near = INFINITY;
         box->cost = 0;
+        box->limit = ROOMY_PAIRS_LEAST;
         for (size_t j = 0; j < s->parameters; ++j) {
             box->range[2 * j] = s->lo[j];
             box->range[2 * j + 1] = s->hi[j];

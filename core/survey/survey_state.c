@@ -9,13 +9,13 @@
 #include "core/base/fp_mode.h"
 #include "core/base/json_text.h"
 #include "core/base/status.h"
-#include "core/survey/survey_internal.h"
+#include "core/survey/box_question.h"
 
 /* Where a survey stands, as text
  * ==============================
  * {"question", "boxes": N, "made": N, "proved": P, "settled": L, "waiting": [...], "known"};
  * "question" is what has to be equal in the survey that goes on: ranges, pairs, tolerances. A box
- * that waits is [key, number, pair, share, near, cost, lo, hi, lo, hi, ...], "known" the incumbent.
+ * that waits is [key, number, pair, share, near, cost, limit, lo, hi, ...], "known" the incumbent.
  * Numbers are written with 17 digits and read back exactly; null stands for INFINITY. */
 
 /* --- Writing ---------------------------------------------------------------------------------- */
@@ -54,13 +54,13 @@ static json_t *question_json(const imp_survey *s)
     return NULL;
 }
 
-enum { BOX_NUMBERS = 6 }; /* of a box, before its ranges */
+enum { BOX_NUMBERS = 7 }; /* of a box, before its ranges */
 
 static json_t *box_json(const survey_box *box, size_t count)
 {
-    json_t *list =
-        json_pack("[o, I, I, f, o, I]", number_json(box->key), (json_int_t)box->number,
-                  (json_int_t)box->pair, box->share, number_json(box->near), (json_int_t)box->cost);
+    json_t *list = json_pack("[o, I, I, f, o, I, I]", number_json(box->key),
+                             (json_int_t)box->number, (json_int_t)box->pair, box->share,
+                             number_json(box->near), (json_int_t)box->cost, (json_int_t)box->limit);
     if (list == NULL || append_numbers(list, box->range, 2 * count)) return list;
     json_decref(list);
     return NULL;
@@ -162,14 +162,17 @@ static bool read_index(const json_t *json, size_t count, size_t *to)
 static bool read_box(imp_survey *s, const json_t *list, survey_box *box)
 {
     const double share = number_of(json_array_get(list, 3));
-    size_t number, cost;
+    size_t number, cost, limit;
     if (json_array_size(list) != BOX_NUMBERS + 2 * s->parameters || !(share >= 0 && share <= 1))
         return false;
     *box = (survey_box){.key = number_of(json_array_get(list, 0)),
                         .share = share,
                         .near = number_of(json_array_get(list, 4))};
-    if (!read_index(json_array_get(list, 5), SIZE_MAX, &cost)) return false;
+    if (!read_index(json_array_get(list, 5), SIZE_MAX, &cost) ||
+        !read_index(json_array_get(list, 6), 2 * ROOMY_PAIRS_MOST, &limit) || limit == 0)
+        return false;
     box->cost = cost;
+    box->limit = limit;
     if (!read_index(json_array_get(list, 1), (size_t)s->counts.made, &number) ||
         !read_index(json_array_get(list, 2), s->pairs.count, &box->pair))
         return false;
