@@ -42,6 +42,7 @@ core_surface = \
     core/surface/clocked.c core/surface/clocked.h \
     core/surface/formula_text.c core/surface/formula_text.h \
     core/surface/instance.c core/surface/instance.h \
+    core/surface/instance_words.c \
     core/surface/region.c core/surface/region.h \
     core/surface/slip.h core/surface/slip_center.c core/surface/slip_screw.c \
     core/surface/surface_status.c \
@@ -121,6 +122,7 @@ core_scene = \
     core/scene/posed_scene.c core/scene/posed_scene.h \
     core/scene/scene.c core/scene/scene.h \
     core/scene/scene_change.c core/scene/scene_change.h \
+    core/scene/scene_spares.c \
     core/scene/scene_memory.c \
     core/scene/scene_options.c \
     core/scene/scene_files.c core/scene/scene_files.h \

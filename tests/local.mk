@@ -142,6 +142,7 @@ mpfi_suites = \
     tests/unit/test_net_series \
     tests/unit/test_poses \
     tests/unit/test_set_values \
+    tests/unit/test_steady_state \
     tests/unit/test_shapes \
     tests/unit/test_nurbs \
     tests/unit/test_shape_contacts \
@@ -355,6 +356,7 @@ check_LTLIBRARIES = \
     tests/plugins/liar_range.la \
     tests/plugins/liar_refusal.la \
     tests/plugins/liar_remainder.la \
+    tests/plugins/liar_renew.la \
     tests/plugins/liar_rounding.la \
     tests/plugins/liar_sign.la \
     tests/plugins/liar_single.la \
@@ -455,6 +457,7 @@ tests_plugins_liar_exports_la_LDFLAGS = $(test_plugin_ldflags)
 tests_plugins_liar_factory_la_LDFLAGS = $(test_plugin_ldflags)
 tests_plugins_liar_grid_la_LDFLAGS = $(test_plugin_ldflags)
 tests_plugins_liar_hang_la_LDFLAGS = $(test_plugin_ldflags)
+tests_plugins_liar_renew_la_LDFLAGS = $(test_plugin_ldflags)
 tests_plugins_liar_leak_la_LDFLAGS = $(test_plugin_ldflags)
 tests_plugins_liar_map_rate_la_LDFLAGS = $(test_plugin_ldflags)
 tests_plugins_liar_model_time_la_LDFLAGS = $(test_plugin_ldflags)
@@ -520,6 +523,9 @@ tests_unit_test_linked_in_SOURCES = tests/unit/test_linked_in.c tests/support/al
 tests_unit_test_linked_in_LDFLAGS = $(alloc_failure_ldflags)
 tests_unit_test_set_values_SOURCES = tests/unit/test_set_values.c tests/support/alloc_failure.c
 tests_unit_test_set_values_LDFLAGS = $(alloc_failure_ldflags)
+tests_unit_test_steady_state_SOURCES = tests/unit/test_steady_state.c tests/support/alloc_failure.c \
+    tools/check/malloc_watch.c
+tests_unit_test_steady_state_LDFLAGS = $(alloc_failure_ldflags)
 tests_unit_test_half_planes_SOURCES = tests/unit/test_half_planes.c tests/support/alloc_failure.c
 tests_unit_test_half_planes_LDFLAGS = $(alloc_failure_ldflags)
 tests_unit_test_proof_memory_SOURCES = tests/unit/test_proof_memory.c tests/support/alloc_failure.c

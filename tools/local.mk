@@ -27,6 +27,7 @@ tools_libproof_la_SOURCES = \
 tools_check = \
     tools/check/allocations.c tools/check/allocations.h \
     tools/check/answer.c tools/check/answer.h \
+    tools/check/argument_list.c tools/check/argument_list.h \
     tools/check/arguments.c tools/check/arguments.h \
     tools/check/badge.c tools/check/badge.h \
     tools/check/buffers.c tools/check/buffers.h \
@@ -62,6 +63,7 @@ tools_check = \
     tools/check/proof_text.c tools/check/proof_text.h \
     tools/check/purity.c tools/check/purity.h \
     tools/check/rates.c tools/check/rates.h \
+    tools/check/renewal.c tools/check/renewal.h \
     tools/check/remainders.c tools/check/remainders.h \
     tools/check/report.c tools/check/report.h \
     tools/check/request.c tools/check/request.h \

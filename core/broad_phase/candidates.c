@@ -30,22 +30,24 @@ typedef struct pair_order {
     uint32_t *at, *to; /* now, and room for the next */
     size_t *start;     /* room for one element per key and one more */
     size_t keys;
+    arena_store *store; /* of their memory */
 } pair_order;
 
 static void order_clear(pair_order *order)
 {
-    free(order->at);
-    free(order->to);
-    free(order->start);
+    arena_store_free_room(order->store, order->at);
+    arena_store_free_room(order->store, order->to);
+    arena_store_free_room(order->store, order->start);
 }
 
 /* False: no memory; then too it has to be cleared. */
-static bool order_begin(pair_order *order, size_t pairs, size_t keys)
+static bool order_begin(pair_order *order, size_t pairs, size_t keys, arena_store *store)
 {
-    *order = (pair_order){.at = malloc((pairs + 1) * sizeof *order->at),
-                          .to = malloc((pairs + 1) * sizeof *order->to),
-                          .start = malloc((keys + 1) * sizeof *order->start),
-                          .keys = keys};
+    *order = (pair_order){.at = arena_store_room(store, (pairs + 1) * sizeof *order->at),
+                          .to = arena_store_room(store, (pairs + 1) * sizeof *order->to),
+                          .start = arena_store_room(store, (keys + 1) * sizeof *order->start),
+                          .keys = keys,
+                          .store = store};
     if (order->at == NULL || order->to == NULL || order->start == NULL) return false;
     for (size_t k = 0; k < pairs; ++k) order->at[k] = (uint32_t)k;
     return true;
@@ -90,7 +92,9 @@ static void move_pairs(candidate_pair *pairs, size_t count, uint32_t *order)
 /* Gives back what the list has room for beyond its pairs and one more. False: no memory. */
 static bool shrink_pairs(candidate_list *list)
 {
-    candidate_pair *fitting = realloc(list->pairs, (list->pair_count + 1) * sizeof *fitting);
+    const size_t bytes = (list->pair_count + 1) * sizeof *list->pairs;
+    if (list->pair_capacity <= list->pair_count + 1) return true;
+    candidate_pair *fitting = arena_store_regrow(list->store, list->pairs, bytes, bytes);
     if (fitting == NULL) return false;
     list->pairs = fitting;
     list->pair_capacity = list->pair_count + 1;
@@ -107,7 +111,8 @@ static imp_code sort_pairs(collection *all, bool *done, imp_error *error)
     const size_t bodies = scene_body_count(all->scene);
     const int last = bodies > 2 ? SORT_KEYS : KEY_BODY_B; /* two bodies are in order already */
     bool is_moved = false;
-    *done = order_begin(&order, list->pair_count, list->count > bodies ? list->count : bodies);
+    *done = order_begin(&order, list->pair_count, list->count > bodies ? list->count : bodies,
+                        list->store);
     bool has_memory = *done;
     for (int key = 0; *done && key < last; ++key) {
         if (!sort_pass(list, (sort_key)key, &order)) continue;
@@ -143,10 +148,13 @@ static bool prepare(collection *all)
     size_t most = 1; /* malloc(0) may return NULL */
     for (size_t b = 0; b < scene_body_count(all->scene); ++b)
         most += scene_surface_count(all->scene, b);
-    all->boxes = most <= BOXES_AT_HAND ? all->at_hand : malloc(most * sizeof *all->boxes);
-    all->list->candidates = most <= CANDIDATES_AT_HAND
-                                ? all->list->at_hand
-                                : malloc(most * sizeof *all->list->candidates);
+    all->boxes = most <= BOXES_AT_HAND
+                     ? all->at_hand
+                     : arena_store_room(all->list->store, most * sizeof *all->boxes);
+    all->list->candidates =
+        most <= CANDIDATES_AT_HAND
+            ? all->list->at_hand
+            : arena_store_room(all->list->store, most * sizeof *all->list->candidates);
     if (all->boxes == NULL || all->list->candidates == NULL) return false;
     all->with_roots =
         most <= ROOTS_AT_ONCE ||
@@ -191,7 +199,7 @@ imp_code candidates_find(candidate_list *list, imp_scene *scene, const imp_optio
     if (done && code == IMP_SUCCESS && !search->in_parts)
         code = collection_make_roots(&all, &done, error);
     if (all.tree_ended && collection_must_end(&all)) code = IMP_SUCCESS, done = false;
-    if (all.boxes != all.at_hand) free(all.boxes);
+    if (all.boxes != all.at_hand) arena_store_free_room(list->store, all.boxes);
     free(all.surfaces);
     free(all.sweep);
     list->complete = done && code == IMP_SUCCESS;
@@ -211,7 +219,7 @@ void candidates_clear(candidate_list *list)
         tree_free(list->candidates[k].tree);
     for (size_t k = 0; list->half_planes > 0 && list->candidates != NULL && k < list->count; ++k)
         free(list->candidates[k].half);
-    if (list->candidates != list->at_hand) free(list->candidates);
-    free(list->pairs);
-    *list = (candidate_list){0};
+    if (list->candidates != list->at_hand) arena_store_free_room(list->store, list->candidates);
+    arena_store_free_room(list->store, list->pairs);
+    *list = (candidate_list){.store = list->store};
 }

@@ -20,6 +20,7 @@
 enum { CANDIDATES_AT_HAND = 3 }; /* stored in the list itself */
 
 typedef struct candidate_list {
+    arena_store *store;    /* of its memory; NULL: the heap */
     candidate *candidates; /* in the order of the scene */
     candidate at_hand[CANDIDATES_AT_HAND];
     size_t count;
@@ -30,7 +31,8 @@ typedef struct candidate_list {
     size_t half_planes;
     bool complete;
     bool owns_trees; /* else they are the scene's */
-} candidate_list;    /* begins as {0}, and stays where it is once filled; candidates_clear frees */
+} candidate_list;    /* begins as {0} or with its store, and stays where it is once filled;
+                     candidates_clear frees */
 
 /* The caller's limits. is_reached is called after every few surfaces and boxes, with the bytes that
  * the list and the new trees hold, and returns whether a limit of the query is reached. is_near is

@@ -57,8 +57,8 @@ imp_code candidates_part(candidate_list *list, const candidate_list *whole, size
                              .half_planes = whole->half_planes,
                              .complete = true,
                              .owns_trees = true};
-    list->candidates = calloc(list->count, sizeof *list->candidates);
-    list->pairs = malloc(count * sizeof *list->pairs);
+    list->candidates = arena_store_zeroed(NULL, list->count * sizeof *list->candidates);
+    list->pairs = arena_store_room(NULL, count * sizeof *list->pairs);
     bool ok = list->candidates != NULL && list->pairs != NULL;
     for (size_t k = 0; ok && k < count; ++k) {
         list->pairs[k] = (candidate_pair){.side = {NULL, NULL}};
@@ -89,8 +89,8 @@ static bool copy_pairs(candidate_list *list, const candidate_list *whole, size_t
                              .complete = true};
     list->candidates = list->count <= CANDIDATES_AT_HAND
                            ? list->at_hand
-                           : malloc(list->count * sizeof *list->candidates);
-    list->pairs = malloc(count * sizeof *list->pairs);
+                           : arena_store_room(NULL, list->count * sizeof *list->candidates);
+    list->pairs = arena_store_room(NULL, count * sizeof *list->pairs);
     if (list->candidates == NULL || list->pairs == NULL) return false;
     memcpy(list->candidates, span[0].first, span[0].count * sizeof *list->candidates);
     memcpy(list->candidates + span[0].count, span[1].first,

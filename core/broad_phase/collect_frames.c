@@ -194,10 +194,10 @@ static imp_code find_frames(collection *all, frame_list *frames, bool *done, imp
  * neighbours. False: no memory. */
 static bool take_frames(candidate_list *list, frame_list *frames)
 {
-    candidate *made = malloc((frames->count + 1) * sizeof *made);
+    candidate *made = arena_store_room(list->store, (frames->count + 1) * sizeof *made);
     if (made == NULL) return false;
-    size_t *at = malloc((frames->count + 1) * sizeof *at), count = 0;
-    if (at == NULL) return free(made), false;
+    size_t *at = arena_store_room(list->store, (frames->count + 1) * sizeof *at), count = 0;
+    if (at == NULL) return arena_store_free_room(list->store, made), false;
     for (size_t k = 0; k < list->count; ++k)
         for (size_t f = frames->first[k]; f != NONE; f = frames->at[f].next) {
             made[count] = frames->at[f].made;
@@ -206,8 +206,8 @@ static bool take_frames(candidate_list *list, frame_list *frames)
     for (size_t k = 0; k < list->pair_count; ++k)
         for (int side = 0; side < 2; ++side)
             list->pairs[k].side[side] = &made[at[frames->of_pair[k][side]]];
-    free(at);
-    if (list->candidates != list->at_hand) free(list->candidates);
+    arena_store_free_room(list->store, at);
+    if (list->candidates != list->at_hand) arena_store_free_room(list->store, list->candidates);
     list->candidates = made;
     list->count = count;
     return true;
@@ -217,16 +217,19 @@ imp_code collection_use_frames(collection *all, bool *done, imp_error *error)
 {
     candidate_list *list = all->list;
     if (!any_has_frame(all)) return IMP_SUCCESS;
-    frame_list frames = {.first = malloc((list->count + 1) * sizeof *frames.first),
-                         .of_pair = malloc((list->pair_count + 1) * sizeof *frames.of_pair)};
+    arena_store *store = list->store;
+    frame_list frames = {
+        .first = arena_store_room(store, (list->count + 1) * sizeof *frames.first),
+        .of_pair = arena_store_room(store, (list->pair_count + 1) * sizeof *frames.of_pair),
+        .store = store};
     imp_code code = IMP_SUCCESS;
     if (frames.first == NULL || frames.of_pair == NULL) code = error_set_memory(error);
     if (code == IMP_SUCCESS) code = find_frames(all, &frames, done, error);
     const bool taken = code == IMP_SUCCESS && *done && take_frames(list, &frames);
     if (code == IMP_SUCCESS && *done && !taken) code = error_set_memory(error);
     if (!taken) frames_forget_half_planes(list, &frames);
-    free(frames.at);
-    free(frames.first);
-    free(frames.of_pair);
+    arena_store_free_room(store, frames.at);
+    arena_store_free_room(store, frames.first);
+    arena_store_free_room(store, frames.of_pair);
     return code;
 }

@@ -24,7 +24,8 @@ bool frames_may_have_half_planes(const collection *all, const candidate_pair *p)
 
 frame *frame_list_next(frame_list *frames)
 {
-    frame *grown = array_reserve(frames->at, frames->count, &frames->capacity, sizeof *grown);
+    frame *grown = arena_store_reserve(frames->store, frames->at, frames->count, &frames->capacity,
+                                       sizeof *grown);
     if (grown == NULL) return NULL;
     frames->at = grown;
     return &grown[frames->count];

@@ -27,7 +27,8 @@ static bool keep_pair(collection *all, const candidate_pair *p)
     candidate_list *list = all->list;
     candidate_pair *grown = NULL;
     if (list->pair_count < UINT32_MAX)
-        grown = array_reserve(list->pairs, list->pair_count, &list->pair_capacity, sizeof *grown);
+        grown = arena_store_reserve(list->store, list->pairs, list->pair_count,
+                                    &list->pair_capacity, sizeof *grown);
     all->out_of_memory = grown == NULL;
     if (grown == NULL) return false;
     list->pairs = grown;

@@ -21,8 +21,8 @@ static bool any_is_missing(const candidate_list *list)
 static bool find_missing(collection *all)
 {
     const candidate_list *list = all->list;
-    bool *paired = calloc(list->count + 1, sizeof *paired);
-    all->roots = calloc(list->count + 1, sizeof *all->roots);
+    bool *paired = arena_store_zeroed(list->store, (list->count + 1) * sizeof *paired);
+    all->roots = arena_store_zeroed(list->store, (list->count + 1) * sizeof *all->roots);
     const bool ok = paired != NULL && all->roots != NULL;
     for (size_t k = 0; ok && k < list->pair_count; ++k)
         for (int side = 0; side < 2; ++side)
@@ -30,7 +30,7 @@ static bool find_missing(collection *all)
     for (size_t k = 0; ok && k < list->count; ++k)
         if (paired[k] && !tree_has_root(list->candidates[k].tree))
             all->roots[all->root_count++].tree = list->candidates[k].tree;
-    free(paired);
+    arena_store_free_room(list->store, paired);
     return ok;
 }
 
@@ -79,6 +79,6 @@ imp_code collection_make_roots(collection *all, bool *done, imp_error *error)
     if (!all->any_lacks_root || !any_is_missing(all->list)) return IMP_SUCCESS;
     imp_code code = find_missing(all) ? IMP_SUCCESS : error_set_memory(error);
     if (code == IMP_SUCCESS) code = take_roots(all, done, error);
-    free(all->roots);
+    arena_store_free_room(all->list->store, all->roots);
     return code;
 }

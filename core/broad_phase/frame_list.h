@@ -18,6 +18,7 @@ typedef struct frame {
 #define NONE SIZE_MAX
 
 typedef struct frame_list {
+    arena_store *store; /* of the memory of all three */
     frame *at;
     size_t count, capacity;
     size_t *first;        /* of each candidate, or NONE */

@@ -17,11 +17,13 @@ OFFERS(surface, net)
 OFFERS(surface, piece)
 OFFERS(surface, distance)
 OFFERS(surface, symmetry)
+OFFERS(surface, renew)
 OFFERS(map, apply)
 OFFERS(map, net)
 OFFERS(map, rigid)
 OFFERS(map, span)
 OFFERS(map, parts)
+OFFERS(map, renew)
 
 #define OFFERS_FORMULA(KIND)                                                                       \
     static bool KIND##_offers_formula(const imp_##KIND##_type *type)                               \
@@ -45,6 +47,7 @@ const capability_row capabilities[CAPABILITIES] = {
     [CAPABILITY_FORMULA] = {"formula", surface_offers_formula, map_offers_formula, CAPABILITY_CORE,
                             NULL},
     [CAPABILITY_PARTS] = {"parts", NULL, map_offers_parts, CAPABILITY_CORE, NULL},
+    [CAPABILITY_RENEW] = {"renew", surface_offers_renew, map_offers_renew, CAPABILITY_CORE, NULL},
 };
 
 bool surface_type_offers(const imp_surface_type *type, capability which)

@@ -24,6 +24,7 @@ typedef enum capability {
     CAPABILITY_SYMMETRY,
     CAPABILITY_FORMULA,
     CAPABILITY_PARTS,
+    CAPABILITY_RENEW,
     CAPABILITIES
 } capability;
 

@@ -169,7 +169,8 @@ typedef struct imp_type_info {
         *capabilities;   /* what this host uses of it, names with blanks between: "core", always;
                                  "order-2": the callback include (surfaces) or apply (maps);
                                  the callbacks "net", "pieces", "rigid", "span", "distance",
-                                 "symmetry"; "formula": the text or callback; "parts": of a map */
+                                 "symmetry"; "formula": the text or callback; "parts": of a map;
+                                 "renew" */
     const char *formula; /* as in imp_surface_type: a text with the parameters' names; or NULL */
 } imp_type_info;
 

@@ -227,7 +227,8 @@ static imp_status map_rigid_of(const void *self, const imp_model *t, imp_pose *p
     return status;
 }
 
-_Static_assert(CAPABILITIES == 10, "stand-ins offer what their types do");
+/* renew is not offered: an instance in another process is created anew. */
+_Static_assert(CAPABILITIES == 11, "stand-ins offer what their types do");
 
 isolated *isolate_surface(worker_pool *pool, const imp_surface_type *type)
 {

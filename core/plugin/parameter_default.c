@@ -43,17 +43,25 @@ static void take(imp_value *value, size_t count)
     for (uint32_t k = 1; k < IMP_RANK_MAX; ++k) value->extent[k] = 1;
 }
 
-/* Without memory the value stays without numbers, and has a count. */
-static bool take_numbers(imp_value *value, const double *x, size_t count)
+static double *take_room(parameter_values *values, size_t count)
 {
-    double *number = malloc(count * sizeof *number);
+    if (count > values->room_left) return malloc(count * sizeof(double));
+    values->room_left -= count;
+    values->room += count;
+    return values->room - count;
+}
+
+/* Without memory the value stays without numbers, and has a count. */
+static bool take_numbers(parameter_values *values, imp_value *value, const double *x, size_t count)
+{
+    double *number = take_room(values, count);
     if (number != NULL) memcpy(number, x, count * sizeof *number);
     value->number = number;
     take(value, count);
     return true;
 }
 
-static bool read_numbers(const imp_parameter *row, imp_value *value)
+static bool read_numbers(const imp_parameter *row, parameter_values *values, imp_value *value)
 {
     enum { COUNT_MAX = 16 };
     double x[COUNT_MAX];
@@ -61,22 +69,22 @@ static bool read_numbers(const imp_parameter *row, imp_value *value)
         const size_t count = row->extent[0];
         const bool fits = count > 0 && count <= COUNT_MAX;
         return fits && read_list(row, row->default_value, count, x) &&
-               take_numbers(value, x, count);
+               take_numbers(values, value, x, count);
     }
     const char *const rest = read_one(row, row->default_value, x);
-    return rest != NULL && *rest == '\0' && take_numbers(value, x, 1);
+    return rest != NULL && *rest == '\0' && take_numbers(values, value, x, 1);
 }
 
-static bool read_boolean(const imp_parameter *row, imp_value *value)
+static bool read_boolean(const imp_parameter *row, parameter_values *values, imp_value *value)
 {
     const bool is_true = strcmp(row->default_value, "true") == 0;
     const double x = is_true;
     if (!is_true && strcmp(row->default_value, "false") != 0) return false;
-    return take_numbers(value, &x, 1);
+    return take_numbers(values, value, &x, 1);
 }
 
 /* Reads a string of ASCII without escapes. Its address and the string are one block. */
-static bool read_string(const imp_parameter *row, imp_value *value)
+static bool read_string(const imp_parameter *row, parameter_values *values, imp_value *value)
 {
     const char *const text = row->default_value;
     const size_t size = strlen(text);
@@ -84,7 +92,8 @@ static bool read_string(const imp_parameter *row, imp_value *value)
     for (size_t k = 1; k + 1 < size; ++k)
         if (text[k] < ' ' || text[k] == '"' || text[k] == '\\' || text[k] > '~') return false;
     take(value, 1);
-    const char **string = malloc(sizeof *string + size - 1);
+    const size_t bytes = sizeof(char *) + size - 1, unit = sizeof(double);
+    const char **string = (const char **)(void *)take_room(values, (bytes + unit - 1) / unit);
     value->string = string;
     if (string == NULL) return true;
     char *copy = (char *)(string + 1);
@@ -94,25 +103,25 @@ static bool read_string(const imp_parameter *row, imp_value *value)
     return true;
 }
 
-static bool read_plain(const imp_parameter *row, imp_value *value)
+static bool read_plain(const imp_parameter *row, parameter_values *values, imp_value *value)
 {
     switch (row->kind) {
     case IMP_KIND_NUMBER:
     case IMP_KIND_INTEGER:
-        return row->rank <= 1 && read_numbers(row, value);
+        return row->rank <= 1 && read_numbers(row, values, value);
     case IMP_KIND_BOOLEAN:
-        return row->rank == 0 && read_boolean(row, value);
+        return row->rank == 0 && read_boolean(row, values, value);
     case IMP_KIND_STRING:
-        return row->rank == 0 && read_string(row, value);
+        return row->rank == 0 && read_string(row, values, value);
     default:
         return false;
     }
 }
 
-imp_code parameter_default_plain(const imp_parameter *row, imp_value *value, bool *is_plain,
-                                 imp_error *error)
+imp_code parameter_default_plain(const imp_parameter *row, parameter_values *values,
+                                 imp_value *value, bool *is_plain, imp_error *error)
 {
-    *is_plain = read_plain(row, value);
+    *is_plain = read_plain(row, values, value);
     if (!*is_plain || value->number != NULL || value->string != NULL) return IMP_SUCCESS;
     *value = (imp_value){.count = 0};
     return error_set_memory(error);

@@ -31,38 +31,48 @@ static bool has_shape(const imp_parameter *row, const imp_argument *a)
     return count <= SIZE_MAX / sizeof(double) && (a->rank == 0 || a->number != NULL);
 }
 
-/* *fits: whether the row allows all numbers of the argument. */
-static imp_code read_argument(const imp_parameter *row, const imp_argument *a, imp_value *value,
-                              bool *fits, imp_error *error)
+/* Whether the row allows all of them. Rows of many numbers most often have closed ranges, or none;
+ * x - x is 0 for finite x alone. */
+static bool are_allowed(const imp_parameter *row, const double *x, size_t count)
 {
-    *fits = has_shape(row, a);
-    if (!*fits) return IMP_SUCCESS;
-    const size_t count = parameter_numbers_count(a);
-    const double *from = a->rank == 0 ? &a->single : a->number;
-    for (size_t k = 0; k < count && *fits; ++k) *fits = parameter_is_allowed(row, from[k]);
-    if (!*fits) return IMP_SUCCESS;
-    double *number = malloc(count * sizeof *number);
-    if (number == NULL) return error_set_memory(error);
-    memcpy(number, from, count * sizeof *number);
-    *value = (imp_value){.number = number, .count = count};
-    for (uint32_t k = 0; k < IMP_RANK_MAX; ++k) value->extent[k] = k < a->rank ? a->extent[k] : 1;
-    return IMP_SUCCESS;
+    const uint32_t open = IMP_PARAMETER_MIN_OPEN | IMP_PARAMETER_MAX_OPEN;
+    const double min = row->min, max = row->max;
+    bool allowed = true;
+    if (row->kind == IMP_KIND_NUMBER && (row->flags & open) == 0) {
+        for (size_t k = 0; k < count; ++k)
+            allowed &= (min <= x[k]) & (x[k] <= max) & (x[k] - x[k] == 0);
+        return allowed;
+    }
+    for (size_t k = 0; k < count && allowed; ++k) allowed = parameter_is_allowed(row, x[k]);
+    return allowed;
 }
 
-static imp_code read_given(const parameter_table *table, const imp_argument *arguments,
-                           size_t count, parameter_values *values, bool *fits, imp_error *error)
+/* False: the row does not allow what the argument has. */
+static bool read_argument(const imp_parameter *row, const imp_argument *a, imp_value *value)
 {
-    imp_code code = IMP_SUCCESS;
-    for (size_t k = 0; k < count && *fits && code == IMP_SUCCESS; ++k) {
+    if (!has_shape(row, a)) return false;
+    const size_t count = parameter_numbers_count(a);
+    const double *from = a->rank == 0 ? &a->single : a->number;
+    if (!are_allowed(row, from, count)) return false;
+    *value = (imp_value){.number = from, .count = count};
+    for (uint32_t k = 0; k < IMP_RANK_MAX; ++k) value->extent[k] = k < a->rank ? a->extent[k] : 1;
+    return true;
+}
+
+/* False: they do not fit. */
+static bool read_given(const parameter_table *table, const imp_argument *arguments, size_t count,
+                       parameter_values *values)
+{
+    for (size_t k = 0; k < count; ++k) {
         const char *name = arguments[k].name;
         const ptrdiff_t row = name != NULL ? parameter_table_find(table, name) : -1;
-        *fits = row >= 0 && values->value[row].number == NULL;
-        if (!*fits) break;
+        if (row < 0 || values->given[row]) return false;
         values->given[row] = true;
-        code = read_argument(parameter_table_row(table, (size_t)row), &arguments[k],
-                             &values->value[row], fits, error);
+        if (!read_argument(parameter_table_row(table, (size_t)row), &arguments[k],
+                           &values->value[row]))
+            return false;
     }
-    return code;
+    return true;
 }
 
 static imp_code read_absent(const parameter_table *table, const place *at, parameter_values *values,
@@ -78,16 +88,17 @@ static imp_code read_absent(const parameter_table *table, const place *at, param
     return code;
 }
 
+/* Numbers of defaults that have room beside the values: more than any of our types has. */
+enum { ROOM = 32 };
+
 imp_code parameter_numbers_read(const parameter_table *table, const imp_argument *arguments,
-                                size_t count, const place *at, parameter_values *values,
-                                imp_error *error)
+                                size_t count, arena_store *store, const place *at,
+                                parameter_values *values, imp_error *error)
 {
     bool fits = arguments != NULL || count == 0;
-    *values = (parameter_values){.count = table->count};
-    values->value = calloc(table->count + 1, sizeof *values->value + sizeof *values->given);
-    if (values->value != NULL) values->given = (bool *)(values->value + table->count + 1);
-    imp_code code = values->value != NULL ? IMP_SUCCESS : error_set_memory(error);
-    if (code == IMP_SUCCESS) code = read_given(table, arguments, count, values, &fits, error);
+    imp_code code = parameters_begin(values, table->count, ROOM, store, error);
+    if (code == IMP_SUCCESS && fits) fits = read_given(table, arguments, count, values);
+    values->borrows = true;
     if (code == IMP_SUCCESS && fits) code = read_absent(table, at, values, &fits, error);
     if (code != IMP_SUCCESS || !fits) parameters_clear(values);
     return code;

@@ -76,7 +76,7 @@ imp_code parameters_read_absent(const imp_parameter *row, const place *at, param
         return place_error(at, error, IMP_ERROR_SCENE, "'%s' is missing; it must be %s", row->name,
                            parameter_shape_words(row, 0).at);
     bool is_plain;
-    const imp_code code = parameter_default_plain(row, value, &is_plain, error);
+    const imp_code code = parameter_default_plain(row, values, value, &is_plain, error);
     if (code != IMP_SUCCESS || is_plain) return code;
     place member = place_key(at, row->name);
     json_t *json;
@@ -129,20 +129,43 @@ imp_code parameters_read(const parameter_table *table, const char *type, const j
     assert(json_is_object(object));
     imp_code code = refuse_unknown(table, type, object, at, error);
     if (code != IMP_SUCCESS) return code;
-    *values = (parameter_values){.count = table->count};
-    values->value = calloc(table->count + 1, sizeof *values->value + sizeof *values->given);
-    if (values->value != NULL) values->given = (bool *)(values->value + table->count + 1);
-    code = values->value != NULL ? read_all(table, object, folder, at, values, error)
-                                 : error_set_memory(error);
+    code = parameters_begin(values, table->count, 0, NULL, error);
+    if (code == IMP_SUCCESS) code = read_all(table, object, folder, at, values, error);
     if (code != IMP_SUCCESS) parameters_clear(values);
     return code;
 }
 
+imp_code parameters_begin(parameter_values *values, size_t count, size_t room, arena_store *store,
+                          imp_error *error)
+{
+    const size_t of_values = (count + 1) * sizeof *values->value, of_room = room * sizeof(double);
+    *values = (parameter_values){.count = count, .room_left = room, .store = store};
+    values->value = arena_store_room(store, of_values + of_room + (count + 1) * sizeof(bool));
+    if (values->value == NULL) return error_set_memory(error);
+    values->room = (double *)(void *)(values->value + count + 1);
+    values->given = (bool *)(values->room + room);
+    memset(values->value, 0, of_values);
+    memset(values->given, 0, (count + 1) * sizeof(bool));
+    return IMP_SUCCESS;
+}
+
+static bool has_in_room(const parameter_values *values, const void *numbers)
+{
+    const double *at = numbers;
+    return at >= (const double *)(const void *)(values->value + values->count + 1) &&
+           at < values->room;
+}
+
 void parameters_clear(parameter_values *values)
 {
-    for (size_t i = 0; values->value != NULL && i < values->count; ++i)
-        parameters_clear_value(&values->value[i]);
-    free(values->value);
+    for (size_t i = 0; values->value != NULL && i < values->count; ++i) {
+        imp_value *value = &values->value[i];
+        if ((values->borrows && values->given[i]) || has_in_room(values, value->number))
+            value->number = NULL;
+        if (has_in_room(values, value->string)) value->string = NULL;
+        parameters_clear_value(value);
+    }
+    arena_store_free_room(values->store, values->value);
     json_decref(values->made);
     *values = (parameter_values){.count = 0};
 }

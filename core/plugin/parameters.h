@@ -5,6 +5,7 @@
 
 #include <jansson.h>
 
+#include "core/base/arena_store.h"
 #include "core/base/place.h"
 #include "core/plugin/parameter_table.h"
 
@@ -28,6 +29,10 @@ typedef struct parameter_values {
     imp_value *value;
     bool *given; /* of each row: the object has it */
     size_t count;
+    bool borrows;       /* the numbers that were given are the caller's */
+    double *room;       /* numbers of defaults, in the memory of `value`; NULL: none are there */
+    size_t room_left;   /* numbers that still fit there */
+    arena_store *store; /* of that memory */
     json_t *made; /* JSON that is not in the object: presets, names of files made whole; or NULL */
 } parameter_values;
 

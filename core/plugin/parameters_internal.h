@@ -18,8 +18,13 @@ imp_code parameters_read_absent(const imp_parameter *row, const place *at, param
 /* Reads a default that is a number, a short list of numbers, true, false or a string without
  * escapes. *is_plain: whether it is; else parameters_read_default reads it. IMP_ERROR_MEMORY, or
  * IMP_SUCCESS. */
-imp_code parameter_default_plain(const imp_parameter *row, imp_value *value, bool *is_plain,
-                                 imp_error *error);
+imp_code parameter_default_plain(const imp_parameter *row, parameter_values *values,
+                                 imp_value *value, bool *is_plain, imp_error *error);
+
+/* Begins values of `count` rows, none of which is read, with room for so many numbers of defaults.
+ * parameters_clear frees them, also on failure. IMP_ERROR_MEMORY, or IMP_SUCCESS. */
+imp_code parameters_begin(parameter_values *values, size_t count, size_t room, arena_store *store,
+                          imp_error *error);
 
 /* Takes over JSON that `values` point into; NULL: it could not be made. IMP_ERROR_MEMORY, or
  * IMP_SUCCESS. */

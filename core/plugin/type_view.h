@@ -20,6 +20,8 @@ typedef struct type_view {
     parameter_table table;
     imp_status (*create)(const imp_value *values, void **self, imp_create_error *why);
     void (*destroy)(void *self);
+    /* NULL: an instance cannot be refilled. */
+    imp_status (*renew)(void *self, const imp_value *values, imp_create_error *why);
 } type_view;
 
 /* The fields that surface and map types share by name. */
@@ -31,6 +33,7 @@ typedef struct type_view {
         .has_formula = IMP_OFFERS(TYPE, formula) || IMP_OFFERS(TYPE, write_formula),               \
         .table = {(TYPE)->parameters, (TYPE)->parameter_count, (TYPE)->parameter_size},            \
         .create = (TYPE)->create, .destroy = (TYPE)->destroy,                                      \
+        .renew = IMP_OFFERS(TYPE, renew) ? (TYPE)->renew : NULL,                                   \
     }
 
 static inline type_view type_view_of_surface(const imp_surface_type *type)

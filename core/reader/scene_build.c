@@ -189,6 +189,30 @@ static imp_code run_create(scene_making *m, const place *at, scene_build_note *n
     return blame(m->file, view, "create changed the mode of arithmetic", at, error);
 }
 
+/* Lets the plugin refill an instance. False: create has to make one, and says what is wrong. */
+static bool run_renew(scene_making *m, scene_build_note *note)
+{
+    guarded_error g;
+    guard(&g, m->budget);
+    const fp_mode before = fp_mode_read();
+    imp_call *call = active_callback_begin(m->view.name, "renew");
+    const imp_status status = m->view.renew(m->again->self, m->values.value, &g.why);
+    active_callback_end(call);
+    if (!fp_mode_kept(before) || !is_whole(&g) || status != IMP_STATUS_OK) return false;
+    if (g.why.note_count > 0) take_note(&m->view.table, &g.why, note);
+    note->is_repeatable = g.why.is_repeatable == 1;
+    return true;
+}
+
+/* Refills m->again, or calls create. */
+static imp_code run(scene_making *m, const place *at, scene_build_note *note, imp_error *error)
+{
+    if (m->again != NULL && run_renew(m, note)) return IMP_SUCCESS;
+    instance_release(m->again);
+    m->again = NULL;
+    return run_create(m, at, note, error);
+}
+
 /* Bytes of the regular files that the values name: create reads them, and keeps about as much. */
 static uint64_t bytes_of_files(const parameter_table *table, const parameter_values *values)
 {
@@ -277,7 +301,8 @@ imp_code scene_making_begin_numbers(scene_making *m, const scene_source *source,
 {
     *m = (scene_making){.budget = source->budget};
     if (!look_up(source->registry, kind, type, m)) return IMP_SUCCESS;
-    imp_code code = parameter_numbers_read(&m->view.table, arguments, count, at, &m->values, error);
+    imp_code code = parameter_numbers_read(&m->view.table, arguments, count,
+                                           registry_store(source->registry), at, &m->values, error);
     if (code != IMP_SUCCESS || m->values.value == NULL) return code;
     code = take_type(source->registry, kind, m, error);
     if (code != IMP_SUCCESS) parameters_clear(&m->values);
@@ -293,7 +318,7 @@ imp_code scene_making_create(scene_making *m, const place *at, scene_build_note 
         code = reading_budget_refuse(m->budget, at, error);
     else if (note == NULL || !m->view.has_formula ||
              keep_numbers(&m->view, &m->values, &note->numbers))
-        code = run_create(m, at, note, error);
+        code = run(m, at, note, error);
     else
         code = error_set_memory(error);
     if (code != IMP_SUCCESS) m->instance.self = NULL;
@@ -305,6 +330,7 @@ imp_code scene_making_create(scene_making *m, const place *at, scene_build_note 
 void scene_making_clear(scene_making *m)
 {
     if (m->instance.self == NULL) isolate_destroy(m->stand_in);
+    instance_release(m->again);
     parameters_clear(&m->values);
 }
 

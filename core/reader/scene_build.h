@@ -28,6 +28,7 @@ typedef struct scene_source {
                            NULL: where the process does */
     reading_budget *budget; /* NULL: no limits */
     scene_files *files;     /* takes the files that values name; NULL: nobody */
+    imp_scene *scene;       /* instances that it is rid of are refilled; NULL: all are new */
 } scene_source;
 
 /* Makes the surface, without maps, or the map that `object` at `at` asks for, or finds one that the
@@ -58,6 +59,7 @@ typedef struct scene_making {
     isolated *stand_in;     /* NULL: it is not isolated */
     reading_budget *budget; /* NULL: no limits */
     parameter_values values;
+    shared_instance *again; /* an instance to be refilled, held; NULL: create makes one */
 } scene_making;
 
 /* What create noted without failing (imp_note), and what it took. */
@@ -80,7 +82,8 @@ imp_code scene_making_begin_numbers(scene_making *m, const scene_source *source,
                                     const char *type, const imp_argument *arguments, size_t count,
                                     const place *at, imp_error *error);
 
-/* Calls create; the caller then owns m->instance. `note` may be NULL. */
+/* Refills m->again or, if it is NULL or does not take these values, calls create, and m->again is
+ * NULL; the caller then owns m->instance. `note` may be NULL. */
 imp_code scene_making_create(scene_making *m, const place *at, scene_build_note *note,
                              imp_error *error);
 void scene_making_clear(scene_making *m);

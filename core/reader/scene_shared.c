@@ -10,6 +10,7 @@
 #include "core/plugin/parameter_numbers.h"
 #include "core/reader/scene_build.h"
 #include "core/reader/scene_label.h"
+#include "core/scene/scene_change.h"
 
 /* Instances that surfaces share: what create made, with its label, note and numbers. */
 
@@ -76,21 +77,32 @@ static bool describe(shared_instance *p, const scene_making *m)
             m->values.given[k])
             return true;
     const size_t size = write_given(&m->values, NULL);
-    p->description = malloc(sizeof *p->description + size);
+    if (p->description == NULL || p->description->size != size) {
+        free(p->description);
+        p->description = malloc(sizeof *p->description + size);
+    }
     if (p->description == NULL) return false;
     p->description->size = size;
     write_given(&m->values, p->description->bytes);
     return true;
 }
 
-/* Finishes the instance that create made, and takes over what the note holds. It was
- * made from numbers and texts of so many bytes. */
-static imp_code share(const scene_making *m, scene_build_note *note, size_t bytes,
-                      const char *label, const place *at, shared_instance **made, imp_error *error)
+/* Shares what create made, or what renew refilled. NULL: no memory. */
+static shared_instance *new_or_renewed(scene_making *m)
 {
-    shared_instance *p = m->instance.surface != NULL
-                             ? instance_of_surface(m->instance.surface, m->instance.self)
-                             : instance_of_map(m->instance.map, m->instance.self);
+    shared_instance *again = m->again;
+    m->again = NULL;
+    if (again != NULL) return instance_renewed(again);
+    return m->instance.surface != NULL ? instance_of_surface(m->instance.surface, m->instance.self)
+                                       : instance_of_map(m->instance.map, m->instance.self);
+}
+
+/* Finishes the instance, and takes over what the note holds. It was made from numbers and texts of
+ * so many bytes. */
+static imp_code share(scene_making *m, scene_build_note *note, size_t bytes, const char *label,
+                      const place *at, shared_instance **made, imp_error *error)
+{
+    shared_instance *p = new_or_renewed(m);
     if (p == NULL) {
         free(note->numbers.number);
         return error_set_memory(error);
@@ -115,6 +127,7 @@ static imp_code make(scene_making *m, size_t bytes, const char *label, const pla
                      shared_instance **made, bool *is_repeatable, imp_error *error)
 {
     scene_build_note note = {.count = 0};
+    if (m->again != NULL) note.numbers = instance_take_numbers(m->again);
     const imp_code code = scene_making_create(m, at, &note, error);
     *is_repeatable = note.is_repeatable;
     if (code == IMP_SUCCESS) return share(m, &note, bytes, label, at, made, error);
@@ -192,6 +205,8 @@ imp_code scene_build_numbers(const scene_source *source, imp_type_kind kind, con
     for (size_t k = 0; k < count; ++k)
         bytes += parameter_numbers_count(&arguments[k]) * sizeof(double);
     scene_label_arguments(label, type, arguments, count);
+    if (source->scene != NULL && m.view.renew != NULL && m.stand_in == NULL)
+        m.again = scene_take_spare(source->scene, m.instance.surface, m.instance.map, bytes);
     code = make(&m, bytes, label, at, made, &is_repeatable, error);
     scene_making_clear(&m);
     return code;

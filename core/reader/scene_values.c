@@ -2,26 +2,51 @@
  * SPDX-License-Identifier: Apache-2.0 */
 #include <config.h>
 
-#include <stdio.h>
+#include <assert.h>
+#include <string.h>
 
 #include "core/base/fp_mode.h"
+#include "core/base/text.h"
 #include "core/reader/arguments.h"
 #include "core/reader/scene_build.h"
 #include "core/scene/scene_change.h"
 
 /* A scene whose numbers change: one instance is made anew, as a builder makes it. */
 
-static const char *words_of(const imp_scene *scene, scene_stage at, char words[160])
+/* Where a change is made, in words. They are made for every change and read after few: without
+ * printf, which would take a tenth of a small one. */
+typedef struct stage_words {
+    char at[200];
+    size_t length;
+} stage_words;
+
+static void add_words(stage_words *to, const char *text, size_t most)
 {
-    const int used = snprintf(words, 160, "body '%.80s'", imp_scene_body_name(scene, at.body));
-    if (at.surface != SIZE_MAX)
-        snprintf(words + used, 160 - (size_t)used, ": surface %zu", at.surface);
+    const size_t length = strnlen(text, most);
+    assert(to->length + length < sizeof to->at);
+    memcpy(to->at + to->length, text, length);
+    to->length += length;
+    to->at[to->length] = '\0';
+}
+
+static void add_number(stage_words *to, const char *what, size_t k)
+{
+    add_words(to, what, SIZE_MAX);
+    add_words(to, text_of_number((double)k).at, SIZE_MAX);
+}
+
+static stage_words words_of(const imp_scene *scene, scene_stage at)
+{
+    stage_words words = {.length = 0};
+    add_words(&words, "body '", SIZE_MAX);
+    add_words(&words, imp_scene_body_name(scene, at.body), 80);
+    add_words(&words, "'", 1);
+    if (at.surface != SIZE_MAX) add_number(&words, ": surface ", at.surface);
     return words;
 }
 
 static imp_code refuse_stage(const imp_scene *scene, scene_stage at, imp_error *error)
 {
-    char words[160];
     if (at.body >= scene_body_count(scene))
         return error_set(error, IMP_ERROR_USAGE, "body %zu: the scene has %zu bodies", at.body,
                          scene_body_count(scene));
@@ -31,8 +56,8 @@ static imp_code refuse_stage(const imp_scene *scene, scene_stage at, imp_error *
         return error_set(error, IMP_ERROR_USAGE, "body '%.80s' has no surface %zu, but %zu",
                          imp_scene_body_name(scene, at.body), at.surface,
                          scene_surface_count(scene, at.body));
-    return error_set(error, IMP_ERROR_USAGE, "%s has no map %zu of its own",
-                     words_of(scene, at, words), at.map);
+    return error_set(error, IMP_ERROR_USAGE, "%s has no map %zu of its own", words_of(scene, at).at,
+                     at.map);
 }
 
 /* Whether the scene can be changed at all, and there. */
@@ -54,7 +79,8 @@ static imp_code check(const imp_scene *scene, scene_stage at, imp_error *error)
 static imp_code make(imp_scene *scene, const shared_instance *like, const imp_argument *arguments,
                      size_t count, const place *at, shared_instance **made, imp_error *error)
 {
-    const scene_source source = {.registry = scene_registry(scene), .files = scene_files_of(scene)};
+    const scene_source source = {
+        .registry = scene_registry(scene), .files = scene_files_of(scene), .scene = scene};
     const imp_type_kind kind = like->surface != NULL ? IMP_TYPE_SURFACE : IMP_TYPE_MAP;
     const char *type = kind == IMP_TYPE_SURFACE ? like->surface->name : like->map->name;
     json_t *object;
@@ -73,19 +99,22 @@ static imp_code make(imp_scene *scene, const shared_instance *like, const imp_ar
 FP_APART static imp_code set_values(imp_scene *scene, scene_stage at, const imp_argument *arguments,
                                     size_t count, imp_error *error)
 {
-    char words[160], map_words[40];
     imp_code code = check(scene, at, error);
     if (code != IMP_SUCCESS) return code;
-    const place whole = place_argument(NULL, words_of(scene, at, words));
-    snprintf(map_words, sizeof map_words, "map %zu", at.map);
-    const place of_map = place_argument(&whole, map_words);
+    const stage_words words = words_of(scene, at);
+    stage_words map_words = {.length = 0};
+    if (at.map != SIZE_MAX) add_number(&map_words, "map ", at.map);
+    const place whole = place_argument(NULL, words.at);
+    const place of_map = place_argument(&whole, map_words.at);
     shared_instance *made = NULL;
     code = make(scene, scene_stage_at(scene, at), arguments, count,
                 at.map != SIZE_MAX ? &of_map : &whole, &made, error);
     if (code != IMP_SUCCESS) return code;
     shared_instance *equal = made->map != NULL ? scene_equal_map(scene, made) : NULL;
+    shared_instance *old = instance_hold(scene_stage_at(scene, at));
     code = scene_replace(scene, at, equal != NULL ? equal : made);
-    instance_release(made);
+    scene_give_spare(scene, made); /* kept if the scene has an equal one, or is as it was */
+    scene_give_spare(scene, old);
     return code == IMP_SUCCESS ? code : error_set_memory(error);
 }
 

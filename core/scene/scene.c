@@ -25,9 +25,9 @@ imp_scene *scene_new(void)
     return scene;
 }
 
-static void member_free(member *m)
+static void member_free(const imp_scene *scene, member *m)
 {
-    scene_free_trees(m);
+    scene_free_trees(scene, m);
     surface_free(m->surface);
 }
 
@@ -35,7 +35,7 @@ static void free_all(imp_scene *scene)
 {
     for (size_t b = 0; b < scene->count; ++b) {
         for (size_t k = 0; k < scene->bodies[b].count; ++k)
-            member_free(&scene->bodies[b].members[k]);
+            member_free(scene, &scene->bodies[b].members[k]);
         free(scene->bodies[b].members);
         if (scene->layout != NULL) instance_list_clear(&scene->layout[b].maps);
         free(scene->bodies[b].groups);
@@ -45,6 +45,7 @@ static void free_all(imp_scene *scene)
     free(scene->groups);
     free(scene->layout);
     free(scene->bodies);
+    scene_free_spares(scene);
     scene_remarks_clear(&scene->remarks);
     scene_files_clear(&scene->files);
     key_pairs_clear(&scene->ignored);

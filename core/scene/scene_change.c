@@ -6,7 +6,6 @@
 
 #include <assert.h>
 #include <math.h>
-#include <stdlib.h>
 
 #include "core/scene/scene_internal.h"
 
@@ -87,9 +86,9 @@ typedef struct change {
 } change;
 
 /* The surface with another instance at that stage. NULL: no memory. */
-static surface *compose(const surface *s, size_t stage, shared_instance *by)
+static surface *compose(const imp_scene *scene, const surface *s, size_t stage, shared_instance *by)
 {
-    surface *made = surface_new_of(stage == 0 ? by : surface_stage(s, 0));
+    surface *made = surface_new_in(scene->store, stage == 0 ? by : surface_stage(s, 0));
     for (size_t k = 1; made != NULL && k <= surface_map_count(s); ++k)
         if (surface_add_instance(made, k == stage ? by : surface_stage(s, k)) != IMP_SUCCESS) {
             surface_free(made);
@@ -116,7 +115,7 @@ static bool recompose_body(imp_scene *scene, size_t body, scene_stage at, shared
     for (size_t k = 0; k < b->count; ++k) {
         const size_t stage = stage_within(scene, body, k, at);
         if (stage == SIZE_MAX) continue;
-        surface *made = compose(b->members[k].surface, stage, by);
+        surface *made = compose(scene, b->members[k].surface, stage, by);
         if (made == NULL) return false;
         surface_set_body(made, b->name, k);
         c->times_differ |= have_other_times(b->members[k].surface, made);
@@ -139,7 +138,7 @@ static bool recompose(imp_scene *scene, scene_stage at, shared_instance *by, cha
     size_t first, last, most = 0;
     find_bodies(scene, at, &first, &last);
     for (size_t b = first; b <= last; ++b) most += scene->bodies[b].count;
-    c->at = malloc((most + 1) * sizeof *c->at);
+    c->at = arena_store_room(scene->store, (most + 1) * sizeof *c->at);
     if (c->at == NULL) return false;
     for (size_t b = first; b <= last; ++b)
         if (!recompose_body(scene, b, at, by, c)) return false;
@@ -156,10 +155,10 @@ static void exchange(change *c)
     }
 }
 
-static void clear(change *c)
+static void clear(const imp_scene *scene, change *c)
 {
     for (size_t k = 0; k < c->count; ++k) surface_free(c->at[k].other);
-    free(c->at);
+    arena_store_free_room(scene->store, c->at);
 }
 
 /* --- Exchanging ------------------------------------------------------------------------------- */
@@ -217,7 +216,7 @@ static void settle(imp_scene *scene, const shared_instance *from, const shared_i
 {
     for (size_t k = 0; k < c->count; ++k) {
         member *m = c->at[k].of;
-        scene_free_trees(m);
+        scene_free_trees(scene, m);
         m->trees = NULL;
         m->inners = NULL;
     }
@@ -246,7 +245,7 @@ imp_code scene_replace(imp_scene *scene, scene_stage at, shared_instance *by)
         if (!has_instance(scene, from)) scene->bytes -= instance_bytes(from);
         if (at.surface == SIZE_MAX) instance_release(from);
     }
-    clear(&c); /* which releases the other surfaces' hold of `from` */
+    clear(scene, &c); /* which releases the other surfaces' hold of `from` */
     return done ? IMP_SUCCESS : IMP_ERROR_MEMORY;
 }
 

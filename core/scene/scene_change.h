@@ -26,6 +26,14 @@ shared_instance *scene_equal_map(const imp_scene *scene, const shared_instance *
 /* How many queries and surveys there are. */
 size_t scene_users(const imp_scene *scene);
 
+/* Returns an instance of that type, one of both, to be refilled with values of so many bytes (as in
+ * shared_instance.given); the caller holds it, and nobody else. NULL: none. */
+shared_instance *scene_take_spare(imp_scene *scene, const imp_surface_type *type,
+                                  const imp_map_type *map, size_t given);
+
+/* Takes over what the caller holds: kept to be refilled, if nobody else holds it. */
+void scene_give_spare(imp_scene *scene, shared_instance *p);
+
 /* Puts an instance of the same type, which the scene then holds, in the place of that one. Nothing
  * may use the scene. IMP_ERROR_MEMORY: the scene is as it was. */
 imp_code scene_replace(imp_scene *scene, scene_stage at, shared_instance *by);

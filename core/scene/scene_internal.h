@@ -43,6 +43,9 @@ typedef struct scene_layout {
     bool is_parent;
 } scene_layout;
 
+/* Instances that wait to be refilled: a step of a simulation changes few types. */
+enum { SCENE_SPARES = 4 };
+
 struct imp_scene {
     scene_body *bodies;
     size_t count, capacity;
@@ -59,8 +62,10 @@ struct imp_scene {
     arena_store *store;           /* of blocks for trees; not its own; NULL: the heap */
     scene_layout *layout;         /* of each body; NULL: the scene is not changed */
     const imp_registry *registry; /* whose types its instances are of; NULL: it has no layout */
-    bool chooses_times;           /* nobody has set those to examine */
-    _Atomic(size_t) references;   /* queries and surveys of it, and its owner */
+    shared_instance *spare[SCENE_SPARES]; /* spare_count of them, held by nobody else */
+    size_t spare_count;
+    bool chooses_times;         /* nobody has set those to examine */
+    _Atomic(size_t) references; /* queries and surveys of it, and its owner */
     /* once it is built all but the members' lists of trees is only read, but by scene_change.c */
 };
 
@@ -79,7 +84,9 @@ void scene_choose_times(imp_scene *scene);
 /* Collects what types remarked, in `to`. False: no memory. */
 bool scene_note_remarks(const imp_scene *scene, scene_remarks *to);
 
+void scene_free_spares(imp_scene *scene);
+
 /* Frees the trees of a surface, and the surfaces in frames that they are of. */
-void scene_free_trees(member *m);
+void scene_free_trees(const imp_scene *scene, member *m);
 
 #endif

@@ -4,18 +4,16 @@
 
 #include "core/scene/scene_trees.h"
 
-#include <stdlib.h>
-
 #include "core/base/status.h"
 #include "core/scene/scene_internal.h"
 
-static void inner_free(inner *i)
+static void inner_free(const imp_scene *scene, inner *i)
 {
     surface_free(i->surface);
-    free(i);
+    arena_store_free_room(scene->store, i);
 }
 
-void scene_free_trees(member *m)
+void scene_free_trees(const imp_scene *scene, member *m)
 {
     for (tree *t = m->trees, *next; t != NULL; t = next) {
         next = tree_next(t);
@@ -23,7 +21,7 @@ void scene_free_trees(member *m)
     }
     for (inner *i = m->inners, *next; i != NULL; i = next) {
         next = i->next;
-        inner_free(i);
+        inner_free(scene, i);
     }
 }
 
@@ -58,24 +56,25 @@ static const surface *find_inner(const inner *i, size_t left_out)
 }
 
 /* Returns the surface without its last maps, made now if it is asked for first. NULL: no memory. */
-static const surface *surface_in_frame(member *m, size_t left_out, tree_growth *growth)
+static const surface *surface_in_frame(const imp_scene *scene, member *m, size_t left_out,
+                                       tree_growth *growth)
 {
     if (left_out == 0) return m->surface;
     inner *first = atomic_load_explicit(&m->inners, memory_order_acquire);
     const surface *found = find_inner(first, left_out);
     if (found != NULL) return found;
-    inner *made = malloc(sizeof *made);
+    inner *made = arena_store_room(scene->store, sizeof *made);
     if (made == NULL) return NULL;
     *made = (inner){NULL, surface_new_inner(m->surface, surface_map_count(m->surface) - left_out),
                     left_out};
     if (made->surface == NULL) {
-        free(made);
+        arena_store_free_room(scene->store, made);
         return NULL;
     }
     do {
         found = find_inner(first, left_out);
         if (found != NULL) {
-            inner_free(made);
+            inner_free(scene, made);
             return found;
         }
         made->next = first;
@@ -94,7 +93,7 @@ imp_code scene_tree(imp_scene *scene, size_t body, size_t index, const tree_plan
     tree_growth own = {.watch = growth->watch};
     *found = find_tree(atomic_load_explicit(&m->trees, memory_order_acquire), plan);
     if (*found != NULL) return IMP_SUCCESS;
-    const surface *s = surface_in_frame(m, plan->left_out, growth);
+    const surface *s = surface_in_frame(scene, m, plan->left_out, growth);
     if (s == NULL) return error_set_memory(error);
     tree_plan stored = *plan;
     stored.store = scene->store;

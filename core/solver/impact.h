@@ -56,7 +56,7 @@ typedef struct impact {
     imp_stats *stats; /* the caller's; its bytes are those of the trees, without the heap */
     const query_spread *spread; /* the caller's; NULL: the scene is no middle of a box of values */
     proof_log *proof;           /* the caller's; NULL: none is kept */
-    pair_heap heap;
+    pair_heap heap;             /* its store is that of all this memory */
     upper_time upper;           /* used with Taylor models only */
     imp_explanation *explained; /* counts for each candidate pair; NULL: not asked for */
     bool explains;              /* they are asked for */

@@ -5,7 +5,6 @@
 #include "core/solver/pair_heap.h"
 
 #include <assert.h>
-#include <stdlib.h>
 #include <string.h>
 
 static bool place_before(const pair_place *p, const pair_place *q)
@@ -22,7 +21,8 @@ bool pair_heap_reserve(pair_heap *heap, size_t more)
 {
     if (more <= heap->capacity - heap->count) return true;
     const size_t capacity = 2 * (heap->count + more) + CAPACITY_LEAST;
-    pair *slots = realloc(heap->slots, capacity * PAIR_HEAP_BYTES);
+    const size_t used = heap->capacity * PAIR_HEAP_BYTES;
+    pair *slots = arena_store_regrow(heap->store, heap->slots, used, capacity * PAIR_HEAP_BYTES);
     if (slots == NULL) return false;
     pair_place *places = (pair_place *)(void *)(slots + capacity);
     memmove(places, slots + heap->capacity, heap->capacity * sizeof *places);
@@ -79,6 +79,6 @@ pair pair_heap_pop(pair_heap *heap)
 
 void pair_heap_clear(pair_heap *heap)
 {
-    free(heap->slots);
-    *heap = (pair_heap){0};
+    arena_store_free_room(heap->store, heap->slots);
+    *heap = (pair_heap){.store = heap->store};
 }

@@ -3,6 +3,7 @@
 #ifndef CORE_SOLVER_PAIR_HEAP_H
 #define CORE_SOLVER_PAIR_HEAP_H
 
+#include "core/base/arena_store.h"
 #include "core/bounds/time_window.h"
 
 /* Pairs of nodes that may still touch, the most urgent first
@@ -35,10 +36,11 @@ typedef struct pair_place {
 } pair_place;
 
 typedef struct pair_heap {
+    arena_store *store; /* of that memory; NULL: the heap of the process */
     pair *slots;        /* one block of memory that also holds `places` */
     pair_place *places; /* the heap; from `count` on, the free slots */
     size_t count, capacity;
-} pair_heap; /* begins as {0}; pair_heap_clear frees */
+} pair_heap; /* begins as {0} or with its store; pair_heap_clear frees */
 
 enum { PAIR_HEAP_BYTES = sizeof(pair_place) + sizeof(pair) }; /* for each pair of its capacity */
 

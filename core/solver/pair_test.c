@@ -139,7 +139,8 @@ void pair_test_look_ahead(impact *im, uint32_t first, size_t count, const imp_op
 {
     tests_ahead *ahead = &im->ahead;
     if (!parallel_is_on(options) || first - ahead->first < ahead->count) return;
-    if (ahead->tests == NULL) ahead->tests = malloc(TESTS_A_ROUND * sizeof *ahead->tests);
+    if (ahead->tests == NULL)
+        ahead->tests = arena_store_room(im->heap.store, TESTS_A_ROUND * sizeof *ahead->tests);
     if (ahead->tests == NULL) return;
     ahead->first = first;
     ahead->count = count - first < TESTS_A_ROUND ? (uint32_t)(count - first) : TESTS_A_ROUND;

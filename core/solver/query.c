@@ -51,7 +51,8 @@ FP_APART static imp_query *new_query(imp_scene *scene, const imp_options *given,
     if (examined_times_find(scene, options->t_start, options->t_end, &watch, &examined, error) !=
         IMP_SUCCESS)
         return NULL;
-    imp_query *query = malloc(sizeof *query);
+    arena_store *store = scene_store(scene);
+    imp_query *query = arena_store_room(store, sizeof *query);
     if (query == NULL) {
         error_set_memory(error);
         return NULL;
@@ -67,7 +68,9 @@ FP_APART static imp_query *new_query(imp_scene *scene, const imp_options *given,
                                     .baseline = options->baseline,
                                     .t_lower = options->t_start,
                                     .window = {options->t_start, options->t_end},
-                                    .stats = &query->stats},
+                                    .stats = &query->stats,
+                                    .heap = {.store = store}},
+                         .candidates = {.store = store},
                          .seam = INFINITY,
                          .verdict = IMP_VERDICT_UNDECIDED,
                          .reason = IMP_REASON_RUNNING};
@@ -98,8 +101,9 @@ void imp_query_free(imp_query *query)
     candidates_clear(&query->candidates);
     query_forget_proof(query);
     free(query->parts);
-    scene_end_use(query->scene);
-    free(query);
+    imp_scene *scene = query->scene;
+    arena_store_free_room(scene_store(scene), query);
+    scene_end_use(scene);
 }
 
 void imp_query_cancel(imp_query *query)

@@ -96,7 +96,7 @@ bool imp_query_part_bodies(const imp_query *query, size_t index, size_t body[2])
 /* Makes a query with the options of the divided one, in its initial state. */
 static imp_query *fresh_query(const imp_query *whole, imp_error *error)
 {
-    imp_query *query = calloc(1, sizeof *query);
+    imp_query *query = arena_store_zeroed(scene_store(whole->scene), sizeof *query);
     if (query == NULL) {
         error_set_memory(error);
         return NULL;

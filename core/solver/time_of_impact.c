@@ -63,7 +63,7 @@ static time_window window_of_roots(impact *im, uint32_t index)
 bool impact_refine(impact *im, double gamma, double gamma_clear, size_t count)
 {
     if (im->roots == NULL && count > 0) {
-        im->roots = malloc(count * sizeof *im->roots);
+        im->roots = arena_store_room(im->heap.store, count * sizeof *im->roots);
         if (im->roots == NULL) return false;
         for (size_t k = 0; k < count; ++k) im->roots[k] = (time_window){NAN, NAN};
     }
@@ -215,7 +215,7 @@ static bool reserve_trials(impact *im)
 {
     const size_t count = im->baseline == IMP_BASELINE_NONE ? im->candidate_pair_count : 0;
     if (im->trials != NULL || count == 0) return true;
-    im->trials = calloc(count, sizeof *im->trials);
+    im->trials = arena_store_zeroed(im->heap.store, count * sizeof *im->trials);
     if (im->trials != NULL) im->stats->bytes += count * sizeof *im->trials;
     return im->trials != NULL;
 }
@@ -259,11 +259,11 @@ imp_code impact_advance(impact *im, impact_state *state, imp_error *error)
 void impact_clear(impact *im)
 {
     pair_heap_clear(&im->heap);
-    free(im->roots);
+    arena_store_free_room(im->heap.store, im->roots);
     free(im->passed);
-    free(im->trials);
+    arena_store_free_room(im->heap.store, im->trials);
     free(im->explained);
-    free(im->ahead.tests);
+    arena_store_free_room(im->heap.store, im->ahead.tests);
     im->roots = NULL;
     im->passed = NULL;
     im->trials = NULL;

@@ -54,33 +54,41 @@ static imp_status take_piece(shared_instance *p, size_t k)
                                                                                : status;
 }
 
+/* False: no memory. */
+static bool reserve_pieces(shared_instance *p, size_t count)
+{
+    if (count <= p->piece_room) return true;
+    free(p->pieces);
+    p->piece_count = 0;
+    p->pieces = malloc(count * sizeof *p->pieces);
+    p->piece_room = p->pieces != NULL ? count : 0;
+    return p->pieces != NULL;
+}
+
 /* Takes all pieces. False: no memory. */
 static bool take_pieces(shared_instance *p)
 {
     const surface_call call = surface_call_begin(p->surface->name, "piece_count");
     const size_t count = p->surface->piece_count(p->self);
+    p->piece_count = 0;
     p->breach = surface_call_end(call, IMP_STATUS_OK);
     if (p->breach == IMP_STATUS_OK && (count == 0 || count > IMP_PIECES_MAX))
         p->breach = SURFACE_PIECE_COUNT;
     if (p->breach == IMP_STATUS_OK) {
-        p->pieces = malloc(count * sizeof *p->pieces);
-        if (p->pieces == NULL) return false;
+        if (!reserve_pieces(p, count)) return false;
         p->piece_count = count;
     }
     for (size_t k = 0; k < p->piece_count && p->breach == IMP_STATUS_OK; ++k)
         p->breach = take_piece(p, k);
-    if (p->piece_count == 1 && p->pieces[0] == p->self) { /* it is its only piece: one surface */
-        free(p->pieces);
-        p->pieces = NULL;
+    if (p->piece_count == 1 && p->pieces[0] == p->self) /* it is its only piece: one surface */
         p->piece_count = 0;
-    }
     return true;
 }
 
 /* False: no memory. */
 static bool add_shelf(shared_instance *p)
 {
-    if (p->piece_count < 2) return true;
+    if (p->piece_count < 2 || p->shelf != NULL) return true;
     p->shelf = malloc(sizeof *p->shelf);
     if (p->shelf == NULL) return false;
     *p->shelf = (instance_shelf){.lock = PTHREAD_MUTEX_INITIALIZER};
@@ -116,6 +124,40 @@ static void take_times(shared_instance *p)
     if (p->breach == IMP_STATUS_OK) take_span(p);
 }
 
+static void shelf_clear(instance_shelf *shelf)
+{
+    for (int k = 0; k < INSTANCE_KEPT_MAX && shelf->kept[k].what != NULL; ++k) {
+        shelf->kept[k].release(shelf->kept[k].what);
+        shelf->kept[k].what = NULL;
+    }
+}
+
+void instance_clear_shelf(shared_instance *p)
+{
+    if (p->shelf != NULL) shelf_clear(p->shelf);
+}
+
+static void shelf_free(instance_shelf *shelf)
+{
+    if (shelf == NULL) return;
+    shelf_clear(shelf);
+    pthread_mutex_destroy(&shelf->lock);
+    free(shelf);
+}
+
+/* Takes the domain and the pieces. NULL: no memory, and it is released. */
+static shared_instance *take_surface(shared_instance *p)
+{
+    if (!IMP_OFFERS(p->surface, piece)) {
+        p->breach = instance_domain(p->surface, p->self, p->lo, p->hi);
+    } else if (!take_pieces(p) || !add_shelf(p)) {
+        instance_release(p);
+        return NULL;
+    }
+    set_span(p, p->lo[2], p->hi[2]);
+    return p;
+}
+
 shared_instance *instance_of_surface(const imp_surface_type *type, void *self)
 {
     shared_instance *p = malloc(sizeof *p);
@@ -124,13 +166,26 @@ shared_instance *instance_of_surface(const imp_surface_type *type, void *self)
         return NULL;
     }
     *p = (shared_instance){.surface = type, .self = self, .holders = 1};
-    if (!IMP_OFFERS(type, piece)) {
-        p->breach = instance_domain(type, self, p->lo, p->hi);
-    } else if (!take_pieces(p) || !add_shelf(p)) {
-        instance_release(p);
-        return NULL;
-    }
-    set_span(p, p->lo[2], p->hi[2]);
+    return take_surface(p);
+}
+
+fixed_numbers instance_take_numbers(shared_instance *p)
+{
+    const fixed_numbers numbers = p->numbers;
+    p->numbers = (fixed_numbers){.number = NULL};
+    return numbers;
+}
+
+shared_instance *instance_renewed(shared_instance *p)
+{
+    assert(p->holders == 1 && p->inner == NULL && p->numbers.number == NULL);
+    instance_clear_shelf(p);
+    free(p->note);
+    p->note = NULL;
+    p->note_count = 0;
+    p->breach = IMP_STATUS_OK;
+    if (p->surface != NULL) return take_surface(p);
+    take_times(p);
     return p;
 }
 
@@ -169,15 +224,6 @@ void instance_shelf_add(instance_shelf *shelf, instance_kept one)
     shelf->kept[0] = one;
 }
 
-static void shelf_free(instance_shelf *shelf)
-{
-    if (shelf == NULL) return;
-    for (int k = 0; k < INSTANCE_KEPT_MAX && shelf->kept[k].what != NULL; ++k)
-        shelf->kept[k].release(shelf->kept[k].what);
-    pthread_mutex_destroy(&shelf->lock);
-    free(shelf);
-}
-
 void instance_release(shared_instance *p)
 {
     if (p == NULL) return;
@@ -195,57 +241,6 @@ void instance_release(shared_instance *p)
     free(p->description);
     instance_release(p->inner);
     free(p);
-}
-
-/* --- Labels ----------------------------------------------------------------------------------- */
-
-void instance_label_add(char label[INSTANCE_LABEL_MAX], const char *text)
-{
-    static const char dots[] = " ...";
-    const size_t used = strlen(label), more = strlen(text);
-    if (used + more + sizeof dots <= INSTANCE_LABEL_MAX)
-        memcpy(label + used, text, more + 1);
-    else if (used < sizeof dots || strcmp(label + used - (sizeof dots - 1), dots) != 0)
-        memcpy(label + used, dots, sizeof dots);
-}
-
-bool instance_set_label(shared_instance *p, const char label[INSTANCE_LABEL_MAX])
-{
-    const size_t size = strlen(label) + 1;
-    p->label = malloc(size);
-    if (p->label == NULL) return false;
-    memcpy(p->label, label, size);
-    p->label_size = size;
-    return true;
-}
-
-const char *instance_label(const shared_instance *p)
-{
-    if (p->label != NULL) return p->label;
-    if (p->inner != NULL) return instance_label(p->inner);
-    return p->surface != NULL ? p->surface->name : p->map->name;
-}
-
-/* --- Notes ------------------------------------------------------------------------------------ */
-
-bool instance_set_note(shared_instance *p, uint64_t count, const char *text)
-{
-    p->note = strdup(text);
-    if (p->note == NULL) return false;
-    p->note_count = count;
-    return true;
-}
-
-/* --- Descriptions ----------------------------------------------------------------------------- */
-
-/* Each isolated instance has a type of its own, with the name of the type it stands for. No two
- * types of a registry share the text of a name. */
-bool instance_is_equal_map(const shared_instance *x, const shared_instance *y)
-{
-    const instance_description *of_x = x->description, *of_y = y->description;
-    const bool same_type = x->map != NULL && y->map != NULL && x->map->name == y->map->name;
-    return same_type && of_x != NULL && of_y != NULL && of_x->size == of_y->size &&
-           memcmp(of_x->bytes, of_y->bytes, of_x->size) == 0;
 }
 
 /* --- Numbers ---------------------------------------------------------------------------------- */
@@ -268,10 +263,11 @@ bool fixed_numbers_copy(fixed_numbers *to, const imp_parameter *rows, size_t row
                         size_t stride, const imp_value *values)
 {
     size_t at = 0;
-    *to = (fixed_numbers){.rows = rows, .row_count = row_count, .stride = stride};
+    *to = (fixed_numbers){
+        .rows = rows, .row_count = row_count, .stride = stride, .number = to->number};
     for (size_t k = 0; k < row_count; ++k)
         to->count += fixed_numbers_of_row(fixed_numbers_row(to, k));
-    to->number = malloc((to->count + 1) * sizeof *to->number);
+    if (to->number == NULL) to->number = malloc((to->count + 1) * sizeof *to->number);
     if (to->number == NULL) return false;
     for (size_t k = 0; k < row_count; ++k) {
         const size_t wanted = fixed_numbers_of_row(fixed_numbers_row(to, k));

@@ -55,15 +55,17 @@ typedef struct shared_instance {
     double span[2];      /* times it is made for; -INFINITY, INFINITY: not stated */
     const void **pieces; /* instances that `self` owns and that replace it; NULL: one surface */
     size_t piece_count;  /* 0: one surface */
+    size_t piece_room;   /* pieces that there is memory for */
     imp_status breach;   /* other than IMP_STATUS_OK: its domain breaks the ABI, only release it */
     uint32_t clock;      /* if there is an `inner`: the index of its parameter in the scene */
     size_t given;        /* bytes of the values and files it was made from, about what it keeps */
     char *label; /* as on a command line, shortened: "sphere radius=2"; NULL: its type's name */
     size_t label_size;     /* bytes, including the final NUL */
+    size_t label_room;     /* bytes there, at least as many */
     uint64_t note_count;   /* number of items that create left out or reinterpreted; 0: no note */
     char *note;            /* the items, with the parameter's name; NULL: none */
     fixed_numbers numbers; /* for its formula */
-    instance_shelf *shelf; /* of a surface of several pieces; else NULL */
+    instance_shelf *shelf; /* of a surface that has, or had, several pieces; else NULL */
     instance_description *description; /* of a map that reads no file; else NULL */
     /* Under the clock of a scene parameter (clocked.h); held. NULL: it follows time. */
     struct shared_instance *inner;
@@ -74,6 +76,14 @@ typedef struct shared_instance {
  * memory, and the instance is destroyed. */
 shared_instance *instance_of_surface(const imp_surface_type *type, void *self);
 shared_instance *instance_of_map(const imp_map_type *type, void *self);
+
+/* Takes over an instance that its type has just refilled, and that nobody else holds: like
+ * instance_of_surface and instance_of_map of one that is new, in the memory that it has. What was
+ * said of its old values is gone, but for room. */
+shared_instance *instance_renewed(shared_instance *p);
+
+/* Takes the numbers for its formula away, whose array then holds those of other values. */
+fixed_numbers instance_take_numbers(shared_instance *p);
 
 /* Gets the domain of an instance. Returns IMP_STATUS_OK, or how the domain breaks the ABI. */
 imp_status instance_domain(const imp_surface_type *type, const void *self, double lo[3],
@@ -97,7 +107,8 @@ size_t fixed_numbers_of_row(const imp_parameter *row);
 
 const imp_parameter *fixed_numbers_row(const fixed_numbers *numbers, size_t k);
 
-/* Copies the numbers from the values, one value for each row. False: no memory. */
+/* Copies the numbers from the values, one value for each row. If to->number is not NULL, its array
+ * is that of the same rows, and used again. False: no memory. */
 bool fixed_numbers_copy(fixed_numbers *to, const imp_parameter *rows, size_t row_count,
                         size_t stride, const imp_value *values);
 
@@ -112,6 +123,9 @@ size_t instance_bytes(const shared_instance *p);
 /* Puts what the caller holds onto the shelf, which takes over that hold. The lock is the
  * caller's. */
 void instance_shelf_add(instance_shelf *shelf, instance_kept one);
+
+/* Drops what other parts have made of it. Nobody else may hold it. */
+void instance_clear_shelf(shared_instance *p);
 
 shared_instance *instance_hold(shared_instance *p);
 void instance_release(shared_instance *p); /* p may be NULL */

@@ -7,23 +7,24 @@
 #include <assert.h>
 #include <stdarg.h>
 #include <stdio.h>
-#include <stdlib.h>
 #include <string.h>
 
 #include "core/base/active_callback.h"
 #include "core/base/status.h"
 #include "core/base/text.h"
-#include "core/common/array.h"
 #include "core/surface/surface_internal.h"
 
 /* --- Composing -------------------------------------------------------------------------------- */
 
-surface *surface_new_of(shared_instance *type)
+surface *surface_new_of(shared_instance *type) { return surface_new_in(NULL, type); }
+
+surface *surface_new_in(arena_store *store, shared_instance *type)
 {
     assert(type->surface != NULL);
-    surface *s = malloc(sizeof *s);
+    surface *s = arena_store_room(store, sizeof *s);
     if (s == NULL) return NULL;
-    *s = (surface){.type = type->surface,
+    *s = (surface){.store = store,
+                   .type = type->surface,
                    .self = type->piece_count > 0 ? type->pieces[0] : type->self,
                    .origin = instance_hold(type)};
     memcpy(s->lo, type->lo, sizeof s->lo);
@@ -34,7 +35,8 @@ surface *surface_new_of(shared_instance *type)
 imp_code surface_add_instance(surface *s, shared_instance *map)
 {
     assert(map->map != NULL);
-    mapping *maps = array_reserve(s->maps, s->map_count, &s->map_capacity, sizeof *maps);
+    mapping *maps =
+        arena_store_reserve(s->store, s->maps, s->map_count, &s->map_capacity, sizeof *maps);
     if (maps == NULL) return IMP_ERROR_MEMORY;
     s->maps = maps;
     maps[s->map_count++] = (mapping){map->map, map->self, instance_hold(map)};
@@ -43,11 +45,11 @@ imp_code surface_add_instance(surface *s, shared_instance *map)
     return IMP_SUCCESS;
 }
 
-static piece_table *pieces_new(size_t count)
+static piece_table *pieces_new(arena_store *store, size_t count)
 {
     size_t bytes;
     if (__builtin_mul_overflow(count, sizeof(surface) + 1, &bytes)) return NULL;
-    piece_table *p = malloc(sizeof *p + bytes);
+    piece_table *p = arena_store_room(store, sizeof *p + bytes);
     if (p == NULL) return NULL;
     pthread_mutex_init(&p->lock, NULL);
     p->is_made = (void *)(p->at + count);
@@ -55,46 +57,46 @@ static piece_table *pieces_new(size_t count)
     return p;
 }
 
-static void pieces_free(piece_table *p)
+static void pieces_free(arena_store *store, piece_table *p)
 {
     if (p == NULL) return;
     pthread_mutex_destroy(&p->lock);
-    free(p);
+    arena_store_free_room(store, p);
 }
 
 surface *surface_new_inner(const surface *s, size_t maps)
 {
     assert(maps <= s->map_count);
-    surface *inner = malloc(sizeof *inner);
+    surface *inner = arena_store_room(s->store, sizeof *inner);
     if (inner == NULL) return NULL;
     *inner = *s;
     inner->outer = s;
     inner->map_count = maps;
     if (s->pieces == NULL) return inner;
-    inner->pieces = pieces_new(s->piece_count);
+    inner->pieces = pieces_new(s->store, s->piece_count);
     if (inner->pieces != NULL) return inner;
-    free(inner);
+    arena_store_free_room(s->store, inner);
     return NULL;
 }
 
 void surface_free(surface *s)
 {
     if (s == NULL) return;
-    pieces_free(s->pieces);
+    pieces_free(s->store, s->pieces);
     if (s->outer != NULL) {
-        free(s);
+        arena_store_free_room(s->store, s);
         return;
     }
     for (size_t k = 0; k < s->map_count; ++k) instance_release(s->maps[k].origin);
-    free(s->maps);
+    arena_store_free_room(s->store, s->maps);
     instance_release(s->origin);
-    free(s);
+    arena_store_free_room(s->store, s);
 }
 
 imp_code surface_divide(surface *s)
 {
     if (s->origin->piece_count == 0) return IMP_SUCCESS;
-    s->pieces = pieces_new(s->origin->piece_count);
+    s->pieces = pieces_new(s->store, s->origin->piece_count);
     if (s->pieces == NULL) return IMP_ERROR_MEMORY;
     s->piece_count = s->origin->piece_count;
     return IMP_SUCCESS;

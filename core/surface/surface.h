@@ -3,6 +3,7 @@
 #ifndef CORE_SURFACE_SURFACE_H
 #define CORE_SURFACE_SURFACE_H
 
+#include "core/base/arena_store.h"
 #include "core/surface/instance.h"
 
 /* A surface under its maps, composed once
@@ -14,6 +15,9 @@ typedef struct surface surface;
 
 /* Makes a surface of one instance, which it holds. NULL: no memory. */
 surface *surface_new_of(shared_instance *type);
+
+/* Likewise, in memory of a store, which must outlive it. */
+surface *surface_new_in(arena_store *store, shared_instance *type);
 
 /* Puts a map on top of those already there, and holds it. */
 imp_code surface_add_instance(surface *s, shared_instance *map);

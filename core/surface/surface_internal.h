@@ -25,6 +25,7 @@ typedef struct mapping {
 typedef struct piece_table piece_table;
 
 struct surface {
+    arena_store *store; /* of its memory; NULL: the heap */
     const imp_surface_type *type;
     const void *self;
     shared_instance *origin; /* held */

@@ -4,7 +4,6 @@
 
 #include <assert.h>
 #include <stddef.h>
-#include <stdlib.h>
 #include <string.h>
 
 #include "core/base/status.h"
@@ -62,7 +61,7 @@ static size_t tree_bytes(bool with_root)
 /* Makes a tree whose root is not filled yet. NULL: no memory. */
 static tree *tree_begin(const surface *s, const tree_plan *plan, bool with_root)
 {
-    tree *t = malloc(tree_bytes(with_root));
+    tree *t = arena_store_room(plan->store, tree_bytes(with_root));
     if (t == NULL) return NULL;
     *t = (tree){.surface = s,
                 .plan = *plan,
@@ -120,7 +119,7 @@ imp_code tree_new_without_root(const surface *s, const tree_plan *plan, tree **m
 imp_code tree_make_root(tree *t, tree_growth *growth, imp_error *error)
 {
     if (tree_has_root(t)) return IMP_SUCCESS;
-    node *filled = malloc(sizeof *filled);
+    node *filled = arena_store_room(t->plan.store, sizeof *filled);
     if (filled == NULL) return error_set_memory(error);
     const imp_code code = root_fill(t, filled, growth, error);
     pthread_mutex_lock(&t->lock);
@@ -131,7 +130,7 @@ imp_code tree_make_root(tree *t, tree_growth *growth, imp_error *error)
         filled = NULL;
     }
     pthread_mutex_unlock(&t->lock);
-    free(filled);
+    arena_store_free_room(t->plan.store, filled);
     return code;
 }
 
@@ -156,8 +155,10 @@ void tree_free(tree *t)
     arena_clear(&t->nets, t->plan.store);
     arena_clear(&t->posing.memory, t->plan.store);
     pthread_mutex_destroy(&t->lock);
-    if (!t->begins_with_root) free(atomic_load_explicit(&t->root, memory_order_relaxed));
-    free(t);
+    arena_store *store = t->plan.store;
+    if (!t->begins_with_root)
+        arena_store_free_room(store, atomic_load_explicit(&t->root, memory_order_relaxed));
+    arena_store_free_room(store, t);
 }
 
 tree *tree_next(const tree *t) { return t->next; }

@@ -23,10 +23,8 @@ typedef struct capped_pieces {
 } capped_pieces;
 
 /* `parts`: how many there are with the ends. */
-static inline imp_status capped_create(const imp_value *values, size_t parts, void **self)
+static inline imp_status capped_fill(capped_pieces *pieces, const imp_value *values, size_t parts)
 {
-    capped_pieces *pieces = malloc(sizeof *pieces);
-    if (pieces == NULL) return IMP_STATUS_INTERNAL;
     for (int k = 0; k < CAPPED_PARTS_MAX; ++k) {
         capped *s = &pieces->part[k];
         s->part = k;
@@ -35,7 +33,6 @@ static inline imp_status capped_create(const imp_value *values, size_t parts, vo
         imp_copy_vector(s->center, &values[CAPPED_CENTER]);
     }
     pieces->count = values[CAPPED_ENDS].number[0] != 0 ? parts : 1;
-    *self = pieces;
     return IMP_STATUS_OK;
 }
 

@@ -96,6 +96,21 @@ imp_status course_read(course *c, const imp_value *values, int first, unit_kind 
     return status;
 }
 
+imp_status course_renew(course *c, const imp_value *values, int first, unit_kind kind,
+                        imp_create_error *why, const imp_parameter *rows)
+{
+    const course_question q = {values + first, first, kind, why, rows};
+    const imp_value *rate = &q.v[COURSE_RATE], *coefficients = &q.v[COURSE_COEFFICIENTS];
+    const imp_status status = course_check(&q);
+    if (status != IMP_STATUS_OK) return status;
+    if (imp_is_given(&q.v[COURSE_TIMES]) || imp_is_given(&q.v[COURSE_FILE]) ||
+        c->polynomial.count != polynomial_count(rate, coefficients))
+        return IMP_STATUS_UNBOUNDED;
+    c->hold = q.v[COURSE_HOLD].number[0] != 0;
+    c->polynomial = polynomial_read(rate, coefficients, course_width(&q), (double *)c->memory);
+    return IMP_STATUS_OK;
+}
+
 /* --- Asking ----------------------------------------------------------------------------------- */
 
 void course_span(const course *c, double *lo, double *hi)

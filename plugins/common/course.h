@@ -94,6 +94,12 @@ void course_clear(course *c);
 imp_status course_read(course *c, const imp_value *values, int first, unit_kind kind,
                        imp_create_error *why, const imp_parameter *rows);
 
+/* Reads other rows into a course, in the memory it has. IMP_STATUS_UNBOUNDED: they need other
+ * memory, as those of tables always do. On failure the course may hold anything, but can be
+ * cleared. */
+imp_status course_renew(course *c, const imp_value *values, int first, unit_kind kind,
+                        imp_create_error *why, const imp_parameter *rows);
+
 /* Tells the times at which it is defined: from *lo to *hi. */
 void course_times(const course *c, double *lo, double *hi);
 

@@ -39,6 +39,13 @@ typedef struct rotate_instance {
     course angle;
 } rotate_instance;
 
+static void set_axis(rotate_instance *s, const imp_value *values)
+{
+    s->axis = axis_frame_of(values[AXIS].number);
+    imp_copy_vector(s->direction, &values[AXIS]);
+    imp_copy_vector(s->center, &values[CENTER]);
+}
+
 static imp_status rotate_create(const imp_value *values, void **self, imp_create_error *why)
 {
     imp_status status = axis_check(AXIS, values[AXIS].number, why);
@@ -50,11 +57,19 @@ static imp_status rotate_create(const imp_value *values, void **self, imp_create
         free(s);
         return status;
     }
-    s->axis = axis_frame_of(values[AXIS].number);
-    imp_copy_vector(s->direction, &values[AXIS]);
-    imp_copy_vector(s->center, &values[CENTER]);
+    set_axis(s, values);
     *self = s;
     return IMP_STATUS_OK;
+}
+
+static imp_status rotate_renew(void *self, const imp_value *values, imp_create_error *why)
+{
+    rotate_instance *s = self;
+    imp_status status = axis_check(AXIS, values[AXIS].number, why);
+    if (status == IMP_STATUS_OK)
+        status = course_renew(&s->angle, values, ANGLE, UNIT_ANGLE, why, parameters);
+    if (status == IMP_STATUS_OK) set_axis(s, values);
+    return status;
 }
 
 static void rotate_destroy(void *self)
@@ -163,6 +178,7 @@ static const imp_map_type rotate = {
     .flags = IMP_FLAG_TURNS_EXACTLY,
     .rigid = rotate_rigid,
     .span = rotate_span,
+    .renew = rotate_renew,
     .write_formula = rotate_write_formula,
     .summary = "turns about an axis, at a constant rate, by a polynomial angle or by a table",
     .equation = "w = (x,y,z) - center, k = axis/|axis|, A = rate t, sum_k angle_k t^k, or the "

@@ -41,6 +41,11 @@ static imp_status translate_create(const imp_value *values, void **self, imp_cre
     return IMP_STATUS_OK;
 }
 
+static imp_status translate_renew(void *self, const imp_value *values, imp_create_error *why)
+{
+    return course_renew(self, values, 0, UNIT_LENGTH, why, parameters);
+}
+
 static void translate_destroy(void *self)
 {
     course_clear(self);
@@ -302,6 +307,7 @@ static const imp_map_type translate = {
     .flags = IMP_FLAG_TURNS_EXACTLY,
     .rigid = translate_rigid,
     .span = translate_span,
+    .renew = translate_renew,
     .write_formula = translate_write_formula,
     .summary = "moves along a straight line, along a polynomial in time, or by a table",
     .equation = "(x,y,z) + velocity t, or (x,y,z) + sum_k offset_k t^k, or (x,y,z) + the "

@@ -4,6 +4,7 @@
 #include "plugins/patch/patch.h"
 
 #include "plugins/patch/bernstein.h"
+#include "plugins/patch/chebyshev.h"
 
 #include <impinge/interval.h>
 #include <impinge/quad.h>
@@ -19,13 +20,29 @@ static double *patch_groups(double **memory, size_t count, int lanes)
     return groups;
 }
 
+static int patch_lanes(const patch_data *data) { return data->velocities != NULL ? 8 : 4; }
+
+static size_t patch_square(int degree) { return (size_t)(degree + 1) * (size_t)(degree + 1); }
+
+/* The tables of the degrees, which all patches of these have in common. */
+static void patch_set_beta(patch *f)
+{
+    const int n = f->degree[0], m = f->degree[1];
+    chebyshev_of_bernstein(n, f->beta[0]);
+    if (m == n)
+        memcpy(f->beta[1], f->beta[0], patch_square(n) * sizeof(double));
+    else
+        chebyshev_of_bernstein(m, f->beta[1]);
+}
+
 patch *patch_allocate(const patch_data *data)
 {
-    const int n = data->degree[0], m = data->degree[1], lanes = data->velocities != NULL ? 8 : 4;
+    const int n = data->degree[0], m = data->degree[1], lanes = patch_lanes(data);
     size_t points = patch_points(data->degree);
     size_t along_u = points - (size_t)(m + 1), along_v = points - (size_t)(n + 1);
     size_t head = (sizeof(patch) + 63) / 64 * 64;
-    size_t numbers = (2 * points + along_u + along_v) * (size_t)lanes + 7 * points;
+    size_t of_groups = (2 * points + along_u + along_v) * (size_t)lanes;
+    size_t numbers = of_groups + 8 * points + patch_square(n) + patch_square(m);
     patch *f = aligned_alloc(64, head + (numbers * sizeof(double) + 63) / 64 * 64);
     if (f == NULL) return NULL;
     memset(f, 0, sizeof *f);
@@ -35,8 +52,17 @@ patch *patch_allocate(const patch_data *data)
     f->series = patch_groups(&memory, points, lanes);
     f->difference[0] = patch_groups(&memory, along_u, lanes);
     f->difference[1] = patch_groups(&memory, along_v, lanes);
-    f->given = memory;
+    f->given = patch_groups(&memory, points, 8);
+    f->beta[0] = patch_groups(&memory, patch_square(n), 1);
+    f->beta[1] = memory;
+    patch_set_beta(f);
     return f;
+}
+
+bool patch_has_room(const patch *f, const patch_data *data)
+{
+    return f->degree[0] == data->degree[0] && f->degree[1] == data->degree[1] &&
+           f->lanes == patch_lanes(data);
 }
 
 void patch_keep(patch *f, const patch_data *data)
@@ -61,11 +87,15 @@ static double patch_middle(size_t n, const double *x, double *radius)
     return middle;
 }
 
-static double patch_greatest(const double *x, size_t count, int step)
+/* most[lane] = max |x| of `count` groups, per lane. */
+static void patch_greatest(const double *x, size_t count, int lanes, double *most)
 {
-    double most = 0;
-    for (size_t i = 0; i < count; ++i) most = imp_larger(most, fabs(x[i * (size_t)step]));
-    return most;
+    for (int from = 0; from < lanes; from += IMP_QUAD) {
+        imp_quad all = {0};
+        for (size_t i = 0; i < count; ++i)
+            all = imp_quad_max(all, imp_quad_abs(imp_quad_load(x + i * (size_t)lanes + from)));
+        imp_quad_store(most + from, all);
+    }
 }
 
 /* Each number of the net takes at most two roundings: units is 2. */
@@ -91,8 +121,7 @@ void patch_set_net(patch *f, const patch_data *data)
         if (f->rational) group[PATCH_W] = w;
         f->weight_lo = imp_smaller(f->weight_lo, w);
     }
-    for (int lane = 0; lane < f->lanes; ++lane)
-        f->most[lane] = patch_greatest(f->net + lane, points, f->lanes);
+    patch_greatest(f->net, points, f->lanes, f->most);
 }
 
 /* d/du of sum_i B_i(u) P_i, degree n, is the like sum of degree n - 1 with n (P_(i+1) - P_i).
@@ -100,20 +129,23 @@ void patch_set_net(patch *f, const patch_data *data)
  * most (2 units n most + 2 |result|) ROUNDING. */
 void patch_set_differences(patch *f, int side)
 {
-    const int m = f->degree[1], lanes = f->lanes;
+    const int m = f->degree[1], lanes = f->lanes, groups = lanes / IMP_QUAD;
     int rows = f->degree[0] + (side ? 1 : 0), columns = m + (side ? 0 : 1);
-    int step = (side ? 1 : m + 1) * lanes;
-    double *out = f->difference[side];
+    int step = (side ? 1 : m + 1) * groups;
+    const imp_quad *net = (const imp_quad *)f->net;
+    imp_quad *out = (imp_quad *)f->difference[side];
+    const double degree = f->degree[side];
     for (int i = 0; i < rows; ++i)
         for (int j = 0; j < columns; ++j)
-            for (int lane = 0; lane < lanes; ++lane) {
-                const double *here = f->net + (i * (m + 1) + j) * lanes + lane;
-                *out++ = f->degree[side] * (here[step] - here[0]);
+            for (int h = 0; h < groups; ++h) {
+                const imp_quad *here = net + (i * (m + 1) + j) * groups + h;
+                *out++ = degree * (here[step] - here[0]);
             }
+    double *slope = f->slope[side];
+    patch_greatest(f->difference[side], (size_t)(rows * columns), lanes, slope);
     for (int lane = 0; lane < lanes; ++lane)
-        f->slope[side][lane] =
-            patch_greatest(f->difference[side] + lane, (size_t)(rows * columns), lanes) * SLACK +
-            2 * f->units * f->degree[side] * ROUNDING * f->most[lane] * SLACK;
+        slope[lane] =
+            slope[lane] * SLACK + 2 * f->units * f->degree[side] * ROUNDING * f->most[lane] * SLACK;
 }
 
 /* --- Points ----------------------------------------------------------------------------------- */

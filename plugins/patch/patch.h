@@ -65,7 +65,8 @@ typedef struct patch {
     double *net;                      /* (n+1)(m+1) groups */
     double *series;                   /* the same polynomials in Chebyshev form */
     double *difference[2];            /* nets of d/du and d/dv: n (m+1), (n+1) m groups */
-    double *given;                    /* the data, see patch_keep */
+    double *given;                    /* the data, see patch_keep; room for patch_finish before */
+    double *beta[2];                  /* of the degrees: chebyshev_of_bernstein */
 } patch;
 
 static inline size_t patch_points(const int degree[2])
@@ -75,6 +76,9 @@ static inline size_t patch_points(const int degree[2])
 
 /* The struct and its arrays as one block, for free(); NULL: no memory. */
 patch *patch_allocate(const patch_data *data);
+
+/* Whether the arrays of f have the sizes that this data needs. */
+bool patch_has_room(const patch *f, const patch_data *data);
 
 /* Keeps a copy of the data that patch_allocate saw: 3 numbers of each point, then 3 of its velocity
  * if the patch moves, and then its weight if it is rational. */

@@ -296,24 +296,30 @@ imp_status patch_include(const patch *f, const imp_region *region, imp_model mod
 
 /* --- A whole patch ---------------------------------------------------------------------------- */
 
-bool patch_finish(patch *f)
+void patch_finish(patch *f, const patch_data *data)
 {
-    double *work = malloc(patch_points(f->degree) * (size_t)f->lanes * sizeof *work);
-    if (work == NULL) return false;
     patch_set_differences(f, 0);
     patch_set_differences(f, 1);
-    patch_set_series(f, work);
-    free(work);
-    return true;
+    patch_set_series(f, f->given);
+    patch_keep(f, data);
+}
+
+static void patch_fill(patch *f, const patch_data *data)
+{
+    patch_set_net(f, data);
+    patch_finish(f, data);
 }
 
 patch *patch_new(const patch_data *data)
 {
     patch *f = patch_allocate(data);
-    if (f == NULL) return NULL;
-    patch_keep(f, data);
-    patch_set_net(f, data);
-    if (patch_finish(f)) return f;
-    free(f);
-    return NULL;
+    if (f != NULL) patch_fill(f, data);
+    return f;
+}
+
+bool patch_renew(patch *f, const patch_data *data)
+{
+    if (!patch_has_room(f, data)) return false;
+    patch_fill(f, data);
+    return true;
 }

@@ -18,10 +18,13 @@
 /* Implements imp_surface_type.include. */
 imp_status patch_include(const patch *f, const imp_region *region, imp_model model[3]);
 
-/* Differences and series, from the net. False: no memory. */
-bool patch_finish(patch *f);
+/* Differences and series, from the net, and then a copy of the data. */
+void patch_finish(patch *f, const patch_data *data);
 
 /* A whole patch. NULL: no memory. free() it. */
 patch *patch_new(const patch_data *data);
+
+/* Makes it that of other data. False: it has no room for these, and is as it was. */
+bool patch_renew(patch *f, const patch_data *data);
 
 #endif

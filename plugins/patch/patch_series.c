@@ -19,16 +19,37 @@
 
 /* --- Once: the series ------------------------------------------------------------------------- */
 
+IMP_QUAD_INLINE void multiply(int size, const double *matrix, const double *in, double *out,
+                              int width)
+{
+    const int groups = width / IMP_QUAD;
+    const imp_quad *from = (const imp_quad *)in;
+    imp_quad *row = (imp_quad *)out;
+    for (int k = 0; k < size; ++k, row += groups)
+        for (int x = 0; x < groups; ++x) {
+            imp_quad sum = {0};
+            for (int j = 0; j < size; ++j) sum += matrix[k * size + j] * from[j * groups + x];
+            row[x] = sum;
+        }
+}
+
+IMP_QUAD_NARROW static void multiply_narrow(int size, const double *matrix, const double *in,
+                                            double *out, int width)
+{
+    multiply(size, matrix, in, out, width);
+}
+IMP_QUAD_WIDE static void multiply_wide(int size, const double *matrix, const double *in,
+                                        double *out, int width)
+{
+    multiply(size, matrix, in, out, width);
+}
+
 void patch_multiply(int size, const double *matrix, const double *in, double *out, int width)
 {
-    for (int k = 0; k < size; ++k) {
-        double *row = out + k * width;
-        for (int x = 0; x < width; ++x) row[x] = 0;
-        for (int j = 0; j < size; ++j) {
-            const double entry = matrix[k * size + j];
-            for (int x = 0; x < width; ++x) row[x] += entry * in[j * width + x];
-        }
-    }
+    if (imp_quad_is_wide())
+        multiply_wide(size, matrix, in, out, width);
+    else
+        multiply_narrow(size, matrix, in, out, width);
 }
 
 static double patch_sum_abs(const double *x, int count)
@@ -38,32 +59,35 @@ static double patch_sum_abs(const double *x, int count)
     return sum;
 }
 
-void patch_set_series(patch *f, double *work)
+/* The terms of the noise that depend on the degrees alone, for each number of the series. */
+static void patch_set_noise(patch *f, double beta)
 {
-    const int n = f->degree[0], m = f->degree[1], lanes = f->lanes, row = (m + 1) * lanes;
-    double beta_u[PATCH_SIDE_MAX * PATCH_SIDE_MAX], beta_v[PATCH_SIDE_MAX * PATCH_SIDE_MAX];
-    double shift[PATCH_SIDE_MAX], reach[PATCH_SIDE_MAX];
-    memset(beta_u, 0, (size_t)((n + 1) * (n + 1)) * sizeof *beta_u);
-    memset(beta_v, 0, (size_t)((m + 1) * (m + 1)) * sizeof *beta_v);
+    const int n = f->degree[0], m = f->degree[1], lanes = f->lanes;
+    double shift[PATCH_SIDE_MAX], reach[PATCH_SIDE_MAX], units[PATCH_LANES_MAX];
     for (int k = 0; k <= n || k <= m; ++k) {
         shift[k] = chebyshev_shift_error(k);
         reach[k] = chebyshev_reach(k);
     }
-    chebyshev_of_bernstein(n, beta_u);
-    chebyshev_of_bernstein(m, beta_v);
-    patch_multiply(n + 1, beta_u, f->net, work, row);
+    for (int lane = 0; lane < lanes; ++lane)
+        units[lane] = (f->units + (n + m + 4) * beta) * f->most[lane];
+    const double *series = f->series;
     for (int i = 0; i <= n; ++i)
-        patch_multiply(m + 1, beta_v, work + i * row, f->series + i * row, lanes);
-    double beta =
-        patch_sum_abs(beta_u, (n + 1) * (n + 1)) * patch_sum_abs(beta_v, (m + 1) * (m + 1));
-    for (int lane = 0; lane < lanes; ++lane) {
-        double units = (f->units + (n + m + 4) * beta) * f->most[lane];
-        for (int i = 0; i <= n; ++i)
-            for (int j = 0; j <= m; ++j)
-                units += fabs(f->series[i * row + j * lanes + lane]) *
-                         (shift[i] + shift[j] + (n + m + 2) * reach[i] * reach[j]);
-        f->noise[lane] = units * ROUNDING * SLACK + IMP_TINY;
-    }
+        for (int j = 0; j <= m; ++j, series += lanes) {
+            const double each = shift[i] + shift[j] + (n + m + 2) * reach[i] * reach[j];
+            for (int lane = 0; lane < lanes; ++lane) units[lane] += fabs(series[lane]) * each;
+        }
+    for (int lane = 0; lane < lanes; ++lane)
+        f->noise[lane] = units[lane] * ROUNDING * SLACK + IMP_TINY;
+}
+
+void patch_set_series(patch *f, double *work)
+{
+    const int n = f->degree[0], m = f->degree[1], lanes = f->lanes, row = (m + 1) * lanes;
+    patch_multiply(n + 1, f->beta[0], f->net, work, row);
+    for (int i = 0; i <= n; ++i)
+        patch_multiply(m + 1, f->beta[1], work + i * row, f->series + i * row, lanes);
+    patch_set_noise(f, patch_sum_abs(f->beta[0], (n + 1) * (n + 1)) *
+                           patch_sum_abs(f->beta[1], (m + 1) * (m + 1)));
 }
 
 /* --- Per region: C ---------------------------------------------------------------------------- */

@@ -15,7 +15,7 @@
  *
  *   F = sum_kl C_kl T_k(s_u) T_l(s_v),   C_kl = sum_ij w_ik w_jl R_ij. */
 
-/* out = matrix . in, for size rows of width numbers. */
+/* out = matrix . in, for size rows of width numbers, a multiple of IMP_QUAD. */
 void patch_multiply(int size, const double *matrix, const double *in, double *out, int width);
 
 /* Fills series and noise. `work` has the size of the net. */

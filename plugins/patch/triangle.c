@@ -77,11 +77,9 @@ patch *triangle_new(const triangle_data *data)
             triangle_is_rational(&rows, (size_t)(n + 1) * (size_t)(n + 1)) ? rows.weights : NULL};
     patch *f = patch_allocate(&whole);
     if (f == NULL) return NULL;
-    patch_keep(f, &whole);
     patch_set_net(f, &whole);
     for (int k = 0; k <= n; ++k) curve_raise(f->net + k * (n + 1) * f->lanes, k, n, f->lanes);
     f->units += n + 2;
-    if (patch_finish(f)) return f;
-    free(f);
-    return NULL;
+    patch_finish(f, &whole);
+    return f;
 }

@@ -36,21 +36,35 @@ static imp_status check_count(const imp_value *values, int parameter, size_t poi
         degree[0], degree[1], degree[0], degree[1], points);
 }
 
-static imp_status bezier_create(const imp_value *values, void **self, imp_create_error *why)
+static imp_status read(const imp_value *values, patch_data *data, imp_create_error *why)
 {
     const double *degree = values[DEGREE].number;
-    patch_data data = {.degree = {(int)degree[0], (int)degree[1]},
-                       .points = values[POINTS].number,
-                       .weights = imp_is_given(&values[WEIGHTS]) ? values[WEIGHTS].number : NULL,
-                       .velocities =
-                           imp_is_given(&values[VELOCITIES]) ? values[VELOCITIES].number : NULL};
-    for (int parameter = POINTS; parameter <= VELOCITIES; ++parameter) {
-        imp_status status = check_count(values, parameter, patch_points(data.degree), why);
-        if (status != IMP_STATUS_OK) return status;
-    }
-    patch *f = patch_new(&data);
-    *self = f;
-    return f != NULL ? IMP_STATUS_OK : IMP_STATUS_INTERNAL;
+    *data = (patch_data){.degree = {(int)degree[0], (int)degree[1]},
+                         .points = values[POINTS].number,
+                         .weights = imp_is_given(&values[WEIGHTS]) ? values[WEIGHTS].number : NULL,
+                         .velocities =
+                             imp_is_given(&values[VELOCITIES]) ? values[VELOCITIES].number : NULL};
+    imp_status status = IMP_STATUS_OK;
+    for (int parameter = POINTS; parameter <= VELOCITIES && status == IMP_STATUS_OK; ++parameter)
+        status = check_count(values, parameter, patch_points(data->degree), why);
+    return status;
+}
+
+static imp_status bezier_create(const imp_value *values, void **self, imp_create_error *why)
+{
+    patch_data data;
+    const imp_status status = read(values, &data, why);
+    if (status != IMP_STATUS_OK) return status;
+    *self = patch_new(&data);
+    return *self != NULL ? IMP_STATUS_OK : IMP_STATUS_INTERNAL;
+}
+
+static imp_status bezier_renew(void *self, const imp_value *values, imp_create_error *why)
+{
+    patch_data data;
+    const imp_status status = read(values, &data, why);
+    if (status != IMP_STATUS_OK) return status;
+    return patch_renew(self, &data) ? IMP_STATUS_OK : IMP_STATUS_UNBOUNDED;
 }
 
 static void bezier_domain(const void *self, double lo[3], double hi[3])
@@ -87,6 +101,7 @@ static imp_status bezier_write_formula(const void *self, const imp_text_sink *to
 
 static const imp_surface_type bezier = {
     IMP_SURFACE_FIELDS(bezier, bezier),
+    .renew = bezier_renew,
     .net = bezier_net,
     .write_formula = bezier_write_formula,
     .summary = "Bezier patch of any degree up to 20, polynomial or rational, moving linearly",

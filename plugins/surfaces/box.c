@@ -37,7 +37,7 @@ static void make_face(facet *f, const double lo[3], const double hi[3], int i, b
     f->flatness = 0;
 }
 
-static imp_status box_create(const imp_value *values, void **self, imp_create_error *why)
+static imp_status box_fill(box_instance *s, const imp_value *values, imp_create_error *why)
 {
     const double *size = values[SIZE].number, *center = values[CENTER].number;
     double lo[3], hi[3];
@@ -50,12 +50,10 @@ static imp_status box_create(const imp_value *values, void **self, imp_create_er
                               "by a map translate instead",
                               size[i], center[i]);
     }
-    box_instance *s = malloc(sizeof *s);
-    if (s == NULL) return IMP_STATUS_INTERNAL;
     for (int k = 0; k < FACES; ++k) make_face(&s->face[k], lo, hi, k / 2, k % 2 == 1);
-    *self = s;
     return IMP_STATUS_OK;
 }
+IMP_CREATE_AND_RENEW(box, box_instance)
 
 static size_t box_piece_count(const void *self)
 {
@@ -96,6 +94,7 @@ static imp_status box_write_formula(const void *self, const imp_text_sink *to)
 
 static const imp_surface_type box = {
     IMP_SURFACE_FIELDS(box, linear),
+    .renew = box_renew,
     .net = linear_net,
     .piece_count = box_piece_count,
     .piece = box_piece,

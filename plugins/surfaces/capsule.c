@@ -63,24 +63,20 @@ static imp_status measure(const imp_value *values, capsule_instance *s, imp_crea
     return IMP_STATUS_OK;
 }
 
-static imp_status capsule_create(const imp_value *values, void **self, imp_create_error *why)
+static imp_status capsule_fill(capsule_pieces *pieces, const imp_value *values,
+                               imp_create_error *why)
 {
-    capsule_pieces *pieces = malloc(sizeof *pieces);
-    if (pieces == NULL) return IMP_STATUS_INTERNAL;
     capsule_instance whole = {.radius = values[RADIUS].number[0]};
     const imp_status status = measure(values, &whole, why);
-    if (status != IMP_STATUS_OK) {
-        free(pieces);
-        return status;
-    }
+    if (status != IMP_STATUS_OK) return status;
     for (int k = 0; k < PARTS; ++k) {
         pieces->part[k] = whole;
         pieces->part[k].part = k;
         imp_copy_vector(pieces->part[k].end, &values[k == AT_TO ? TO : FROM]);
     }
-    *self = pieces;
     return IMP_STATUS_OK;
 }
+IMP_CREATE_AND_RENEW(capsule, capsule_pieces)
 
 static size_t capsule_piece_count(const void *self)
 {
@@ -168,6 +164,7 @@ static imp_status capsule_write_formula(const void *self, const imp_text_sink *t
 
 static const imp_surface_type capsule = {
     IMP_SURFACE_FIELDS(capsule, capsule_formula),
+    .renew = capsule_renew,
     .piece_count = capsule_piece_count,
     .piece = capsule_piece,
     .distance = capsule_gap_distance,

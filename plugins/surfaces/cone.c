@@ -25,11 +25,12 @@ static const imp_parameter parameters[] = {
 
 enum { BASE = CAPPED_LATERAL + 1, PARTS };
 
-static imp_status cone_create(const imp_value *values, void **self, imp_create_error *why)
+static imp_status cone_fill(capped_pieces *pieces, const imp_value *values, imp_create_error *why)
 {
     (void)why;
-    return capped_create(values, PARTS, self);
+    return capped_fill(pieces, values, PARTS);
 }
+IMP_CREATE_AND_RENEW(cone, capped_pieces)
 
 static void cone_domain(const void *self, double lo[3], double hi[3])
 {
@@ -151,6 +152,7 @@ static imp_status cone_write_formula(const void *self, const imp_text_sink *to)
 
 static const imp_surface_type cone = {
     IMP_SURFACE_FIELDS(cone, cone_formula),
+    .renew = cone_renew,
     .piece_count = capped_piece_count,
     .piece = capped_piece,
     .distance = cone_gap_distance,

@@ -21,11 +21,13 @@ static const imp_parameter parameters[] = {
 
 enum { BOTTOM = CAPPED_LATERAL + 1, TOP, PARTS };
 
-static imp_status cylinder_create(const imp_value *values, void **self, imp_create_error *why)
+static imp_status cylinder_fill(capped_pieces *pieces, const imp_value *values,
+                                imp_create_error *why)
 {
     (void)why;
-    return capped_create(values, PARTS, self);
+    return capped_fill(pieces, values, PARTS);
 }
+IMP_CREATE_AND_RENEW(cylinder, capped_pieces)
 
 static void cylinder_domain(const void *self, double lo[3], double hi[3])
 {
@@ -106,6 +108,7 @@ static imp_status cylinder_write_formula(const void *self, const imp_text_sink *
 
 static const imp_surface_type cylinder = {
     IMP_SURFACE_FIELDS(cylinder, cylinder_formula),
+    .renew = cylinder_renew,
     .piece_count = capped_piece_count,
     .piece = capped_piece,
     .distance = cylinder_gap_distance,

@@ -17,21 +17,19 @@ typedef struct disc_instance {
     frame frame;
 } disc_instance;
 
-static imp_status disc_create(const imp_value *values, void **self, imp_create_error *why)
+static imp_status disc_fill(disc_instance *s, const imp_value *values, imp_create_error *why)
 {
     const double *axis = values[AXIS].number;
     const imp_status status = axis_check(AXIS, axis, why);
     if (status != IMP_STATUS_OK) return status;
-    disc_instance *s = malloc(sizeof *s);
-    if (s == NULL) return IMP_STATUS_INTERNAL;
     s->radius = values[RADIUS].number[0];
     imp_copy_vector(s->center, &values[CENTER]);
     imp_copy_vector(s->axis, &values[AXIS]);
     s->frame =
         frame_about((const imp_model[]){imp_num(axis[0]), imp_num(axis[1]), imp_num(axis[2])});
-    *self = s;
     return IMP_STATUS_OK;
 }
+IMP_CREATE_AND_RENEW(disc, disc_instance)
 
 static void disc_domain(const void *self, double lo[3], double hi[3])
 {
@@ -83,6 +81,7 @@ static imp_status disc_write_formula(const void *self, const imp_text_sink *to)
 
 static const imp_surface_type disc = {
     IMP_SURFACE_FIELDS(disc, disc_formula),
+    .renew = disc_renew,
     .distance = disc_gap_distance,
     .symmetry = disc_symmetry,
     .write_formula = disc_write_formula,

@@ -19,16 +19,15 @@ typedef struct ellipsoid_instance {
     double radii[3], center[3];
 } ellipsoid_instance;
 
-static imp_status ellipsoid_create(const imp_value *values, void **self, imp_create_error *why)
+static imp_status ellipsoid_fill(ellipsoid_instance *s, const imp_value *values,
+                                 imp_create_error *why)
 {
     (void)why;
-    ellipsoid_instance *s = malloc(sizeof *s);
-    if (s == NULL) return IMP_STATUS_INTERNAL;
     imp_copy_vector(s->radii, &values[RADII]);
     imp_copy_vector(s->center, &values[CENTER]);
-    *self = s;
     return IMP_STATUS_OK;
 }
+IMP_CREATE_AND_RENEW(ellipsoid, ellipsoid_instance)
 
 static void ellipsoid_domain(const void *self, double lo[3], double hi[3])
 {
@@ -189,6 +188,7 @@ static imp_status ellipsoid_symmetry(const void *self, imp_symmetry *symmetry)
 
 static const imp_surface_type ellipsoid = {
     IMP_SURFACE_FIELDS(ellipsoid, ellipsoid_formula),
+    .renew = ellipsoid_renew,
     .distance = ellipsoid_gap_distance,
     .symmetry = ellipsoid_symmetry,
     .summary = "ellipsoid with its axes along x, y and z",

@@ -41,16 +41,14 @@ static imp_status check_edges(const imp_value *values, imp_create_error *why)
                       v[0], v[1], v[2], u[0], u[1], u[2]);
 }
 
-static imp_status plane_create(const imp_value *values, void **self, imp_create_error *why)
+static imp_status plane_fill(facet *s, const imp_value *values, imp_create_error *why)
 {
     imp_status status = check_edges(values, why);
     if (status != IMP_STATUS_OK) return status;
-    facet *s = malloc(sizeof *s);
-    if (s == NULL) return IMP_STATUS_INTERNAL;
     facet_span(s, values[ORIGIN].number, values[EDGE_U].number, values[EDGE_V].number);
-    *self = s;
     return IMP_STATUS_OK;
 }
+IMP_CREATE_AND_RENEW(plane, facet)
 
 /* The distance from the endless plane. */
 static imp_model plane_gap(const void *self, imp_model x, imp_model y, imp_model z, imp_model t)
@@ -68,6 +66,7 @@ static void plane_domain(const void *self, double lo[3], double hi[3])
 
 static const imp_surface_type plane = {
     IMP_SURFACE_FIELDS(plane, linear),
+    .renew = plane_renew,
     .net = linear_net,
     .distance = plane_gap_distance,
     .symmetry = facet_symmetry,

@@ -13,19 +13,17 @@ static const imp_parameter parameters[] = {
     [VELOCITY] = ROW_NEAR_VECTOR("velocity", "length/time", "[0,0,0]", 0, "constant velocity"),
 };
 
-static imp_status point_create(const imp_value *values, void **self, imp_create_error *why)
+static imp_status point_fill(linear *f, const imp_value *values, imp_create_error *why)
 {
     (void)why;
-    linear *f = calloc(1, sizeof *f);
-    if (f == NULL) return IMP_STATUS_INTERNAL;
     for (int i = 0; i < 3; ++i) {
         f->still[LINEAR_1][i] = values[POSITION].number[i];
         f->motion[LINEAR_1][i] = values[VELOCITY].number[i];
     }
     linear_finish(f);
-    *self = f;
     return IMP_STATUS_OK;
 }
+IMP_CREATE_AND_RENEW(point, linear)
 
 static void point_domain(const void *self, double lo[3], double hi[3])
 {
@@ -35,6 +33,7 @@ static void point_domain(const void *self, double lo[3], double hi[3])
 
 static const imp_surface_type point = {
     IMP_SURFACE_FIELDS(point, linear),
+    .renew = point_renew,
     .net = linear_net,
     .summary = "a single point, at rest or moving along a straight line",
     .equation = "position + t velocity; u = v = 0",

@@ -47,7 +47,7 @@ static void set_wave(ripple_instance *s, const double *direction, double wavelen
     s->frequency = near_of(imp_scale(number, speed));
 }
 
-static imp_status ripple_create(const imp_value *values, void **self, imp_create_error *why)
+static imp_status ripple_fill(ripple_instance *s, const imp_value *values, imp_create_error *why)
 {
     const double *direction = values[DIRECTION].number;
     if (!(fabs(direction[0]) >= WAVE_SHORT || fabs(direction[1]) >= WAVE_SHORT))
@@ -55,15 +55,13 @@ static imp_status ripple_create(const imp_value *values, void **self, imp_create
                           "[%g,%g] has no direction; must be any vector but 0 (some component at "
                           "least %g)",
                           direction[0], direction[1], WAVE_SHORT);
-    ripple_instance *s = malloc(sizeof *s);
-    if (s == NULL) return IMP_STATUS_INTERNAL;
     for (int i = 0; i < 2; ++i) s->half[i] = values[SIZE].number[i] / 2;
     s->amplitude = values[AMPLITUDE].number[0];
     set_wave(s, direction, values[WAVELENGTH].number[0], values[SPEED].number[0]);
     imp_copy_vector(s->center, &values[CENTER]);
-    *self = s;
     return IMP_STATUS_OK;
 }
+IMP_CREATE_AND_RENEW(ripple, ripple_instance)
 
 static void ripple_domain(const void *self, double lo[3], double hi[3])
 {
@@ -85,6 +83,7 @@ IMP_SURFACE_FORMULA(ripple_formula)
 
 static const imp_surface_type ripple = {
     IMP_SURFACE_FIELDS(ripple, ripple_formula),
+    .renew = ripple_renew,
     .summary = "rectangular sheet with a plane wave travelling across it",
     .equation = "center + (u, v, amplitude sin(2 pi (d.(u,v) - speed t) / wavelength)), "
                 "d = direction/|direction|, |u| <= size_x / 2, |v| <= size_y / 2",

@@ -25,17 +25,15 @@ static void set_ends(double term[LINEAR_TERMS][4], const double *ends)
     }
 }
 
-static imp_status segment_create(const imp_value *values, void **self, imp_create_error *why)
+static imp_status segment_fill(linear *f, const imp_value *values, imp_create_error *why)
 {
     (void)why;
-    linear *f = calloc(1, sizeof *f);
-    if (f == NULL) return IMP_STATUS_INTERNAL;
     set_ends(f->still, values[POINTS].number);
     if (imp_is_given(&values[VELOCITIES])) set_ends(f->motion, values[VELOCITIES].number);
     linear_finish(f);
-    *self = f;
     return IMP_STATUS_OK;
 }
+IMP_CREATE_AND_RENEW(segment, linear)
 
 static void segment_domain(const void *self, double lo[3], double hi[3])
 {
@@ -59,6 +57,7 @@ static imp_status segment_write_formula(const void *self, const imp_text_sink *t
 
 static const imp_surface_type segment = {
     IMP_SURFACE_FIELDS(segment, linear),
+    .renew = segment_renew,
     .net = linear_net,
     .write_formula = segment_write_formula,
     .summary = "straight segment between two ends that move linearly (edge-edge queries)",

@@ -18,16 +18,14 @@ typedef struct sphere_instance {
     double radius, center[3];
 } sphere_instance;
 
-static imp_status sphere_create(const imp_value *values, void **self, imp_create_error *why)
+static imp_status sphere_fill(sphere_instance *s, const imp_value *values, imp_create_error *why)
 {
     (void)why;
-    sphere_instance *s = malloc(sizeof *s);
-    if (s == NULL) return IMP_STATUS_INTERNAL;
     s->radius = values[RADIUS].number[0];
     imp_copy_vector(s->center, &values[CENTER]);
-    *self = s;
     return IMP_STATUS_OK;
 }
+IMP_CREATE_AND_RENEW(sphere, sphere_instance)
 
 /* The ranges of u and v are rounded outward, so that they cover the full turn and both poles,
  * without a gap. */
@@ -75,6 +73,7 @@ static imp_status sphere_symmetry(const void *self, imp_symmetry *symmetry)
 
 static const imp_surface_type sphere = {
     IMP_SURFACE_FIELDS(sphere, sphere_formula),
+    .renew = sphere_renew,
     .distance = sphere_gap_distance,
     .symmetry = sphere_symmetry,
     .summary = "sphere by longitude u and latitude v",

@@ -20,20 +20,19 @@ typedef struct superellipsoid_instance {
     superellipse meridian, parallel;
 } superellipsoid_instance;
 
-static imp_status superellipsoid_create(const imp_value *values, void **self, imp_create_error *why)
+static imp_status superellipsoid_fill(superellipsoid_instance *s, const imp_value *values,
+                                      imp_create_error *why)
 {
     const imp_value *exponents = &values[EXPONENTS];
     imp_status status = superellipse_check_exponents(exponents, EXPONENTS, why);
     if (status != IMP_STATUS_OK) return status;
-    superellipsoid_instance *s = malloc(sizeof *s);
-    if (s == NULL) return IMP_STATUS_INTERNAL;
     imp_copy_vector(s->radii, &values[RADII]);
     imp_copy_vector(s->center, &values[CENTER]);
     s->meridian = superellipse_of(exponents->number[0]);
     s->parallel = superellipse_of(exponents->number[1]);
-    *self = s;
     return IMP_STATUS_OK;
 }
+IMP_CREATE_AND_RENEW(superellipsoid, superellipsoid_instance)
 
 static void superellipsoid_domain(const void *self, double lo[3], double hi[3])
 {
@@ -57,6 +56,7 @@ IMP_SURFACE_FORMULA(superellipsoid_formula)
 
 static const imp_surface_type superellipsoid = {
     IMP_SURFACE_FIELDS(superellipsoid, superellipsoid_formula),
+    .renew = superellipsoid_renew,
     .summary = "superellipsoid, from boxes through ellipsoids to octahedra",
     .equation = "center + (a X_1(v) X_2(u), b X_1(v) Y_2(u), c Y_1(v)), radii = [a,b,c], (X_k, Y_k)"
                 "(w) = (cos w, sin w) / (|cos w|^p + |sin w|^p)^(1/p), p = 2 / exponents_k, "

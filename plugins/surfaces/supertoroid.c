@@ -25,21 +25,20 @@ typedef struct supertoroid_instance {
     superellipse tube, ring;
 } supertoroid_instance;
 
-static imp_status supertoroid_create(const imp_value *values, void **self, imp_create_error *why)
+static imp_status supertoroid_fill(supertoroid_instance *s, const imp_value *values,
+                                   imp_create_error *why)
 {
     const imp_value *exponents = &values[EXPONENTS];
     imp_status status = superellipse_check_exponents(exponents, EXPONENTS, why);
     if (status != IMP_STATUS_OK) return status;
-    supertoroid_instance *s = malloc(sizeof *s);
-    if (s == NULL) return IMP_STATUS_INTERNAL;
     s->major_radius = values[MAJOR_RADIUS].number[0];
     s->minor_radius = values[MINOR_RADIUS].number[0];
     imp_copy_vector(s->center, &values[CENTER]);
     s->tube = superellipse_of(exponents->number[0]);
     s->ring = superellipse_of(exponents->number[1]);
-    *self = s;
     return IMP_STATUS_OK;
 }
+IMP_CREATE_AND_RENEW(supertoroid, supertoroid_instance)
 
 static void supertoroid_domain(const void *self, double lo[3], double hi[3])
 {
@@ -64,6 +63,7 @@ IMP_SURFACE_FORMULA(supertoroid_formula)
 
 static const imp_surface_type supertoroid = {
     IMP_SURFACE_FIELDS(supertoroid, supertoroid_formula),
+    .renew = supertoroid_renew,
     .summary = "supertoroid: a torus whose ring and tube are superellipses",
     .equation =
         "center + ((R + r X_1(v)) X_2(u), (R + r X_1(v)) Y_2(u), r Y_1(v)), R = major_radius, "

@@ -22,17 +22,15 @@ typedef struct torus_instance {
     double major_radius, minor_radius, center[3];
 } torus_instance;
 
-static imp_status torus_create(const imp_value *values, void **self, imp_create_error *why)
+static imp_status torus_fill(torus_instance *s, const imp_value *values, imp_create_error *why)
 {
     (void)why;
-    torus_instance *s = malloc(sizeof *s);
-    if (s == NULL) return IMP_STATUS_INTERNAL;
     s->major_radius = values[MAJOR_RADIUS].number[0];
     s->minor_radius = values[MINOR_RADIUS].number[0];
     imp_copy_vector(s->center, &values[CENTER]);
-    *self = s;
     return IMP_STATUS_OK;
 }
+IMP_CREATE_AND_RENEW(torus, torus_instance)
 
 static void torus_domain(const void *self, double lo[3], double hi[3])
 {
@@ -82,6 +80,7 @@ static imp_status torus_symmetry(const void *self, imp_symmetry *symmetry)
 
 static const imp_surface_type torus = {
     IMP_SURFACE_FIELDS(torus, torus_formula),
+    .renew = torus_renew,
     .distance = torus_gap_distance,
     .symmetry = torus_symmetry,
     .summary = "torus around the z axis; u runs around the ring, v around the tube",

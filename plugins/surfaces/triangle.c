@@ -26,17 +26,15 @@ static void set_corners(double term[LINEAR_TERMS][4], const double *corners)
     }
 }
 
-static imp_status triangle_create(const imp_value *values, void **self, imp_create_error *why)
+static imp_status triangle_fill(linear *f, const imp_value *values, imp_create_error *why)
 {
     (void)why;
-    linear *f = calloc(1, sizeof *f);
-    if (f == NULL) return IMP_STATUS_INTERNAL;
     set_corners(f->still, values[POINTS].number);
     if (imp_is_given(&values[VELOCITIES])) set_corners(f->motion, values[VELOCITIES].number);
     linear_finish(f);
-    *self = f;
     return IMP_STATUS_OK;
 }
+IMP_CREATE_AND_RENEW(triangle, linear)
 
 static void triangle_domain(const void *self, double lo[3], double hi[3])
 {
@@ -63,6 +61,7 @@ static imp_status triangle_write_formula(const void *self, const imp_text_sink *
 
 static const imp_surface_type triangle = {
     IMP_SURFACE_FIELDS(triangle, linear),
+    .renew = triangle_renew,
     .net = linear_net,
     .write_formula = triangle_write_formula,
     .summary = "triangle whose corners move linearly (vertex-face queries)",

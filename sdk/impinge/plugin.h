@@ -144,6 +144,30 @@ static inline void imp_repeatable(imp_create_error *why)
     if (IMP_HAS(why, is_repeatable)) why->is_repeatable = 1;
 }
 
+/* Makes PREFIX_create and PREFIX_renew of a type whose instance is one struct that owns nothing
+ * else, from a function that fills one: `made` is all 0 when it is called.
+ *
+ *   static imp_status PREFIX_fill(INSTANCE *made, const imp_value *values, imp_create_error *why);
+ *
+ * The type also needs .renew = PREFIX_renew. */
+#define IMP_CREATE_AND_RENEW(PREFIX, INSTANCE)                                                     \
+    static imp_status PREFIX##_renew(void *self, const imp_value *values, imp_create_error *why)   \
+    {                                                                                              \
+        memset(self, 0, sizeof(INSTANCE));                                                         \
+        return PREFIX##_fill((INSTANCE *)self, values, why);                                       \
+    }                                                                                              \
+    static imp_status PREFIX##_create(const imp_value *values, void **self, imp_create_error *why) \
+    {                                                                                              \
+        INSTANCE *made = (INSTANCE *)malloc(sizeof *made);                                         \
+        if (made == NULL) return IMP_STATUS_INTERNAL;                                              \
+        const imp_status status = PREFIX##_renew(made, values, why);                               \
+        if (status == IMP_STATUS_OK)                                                               \
+            *self = made;                                                                          \
+        else                                                                                       \
+            free(made);                                                                            \
+        return status;                                                                             \
+    }
+
 /* Whether create goes on, while it holds that many bytes: a create that may take long, or much
  * memory, asks this before each large block and every few thousand items. 0: a limit was reached;
  * free everything and return IMP_STATUS_INTERNAL. */

@@ -46,11 +46,11 @@ extern "C" {
  *     host reads no further than that size.
  *   - The caller owns every output buffer. Nothing is freed across the boundary.
  *   - Tables, names and texts live as long as the shared object is loaded.
- *   - After create, an instance never changes. eval, rate, include, apply, net, rigid, distance and
- *     symmetry are pure: no allocation, no errno, no change of rounding mode or of any other
- *     floating-point setting, same answer every time, safe from many threads at
- *     once [thread-safe]. create and destroy are called by one thread at a time
- *     [main-thread].
+ *   - After create, an instance never changes, except by renew. eval, rate, include, apply, net,
+ *     rigid, distance and symmetry are pure: no allocation, no errno, no change of rounding
+ *     mode or of any other floating-point setting, same answer every time, safe from many
+ *     threads at once [thread-safe]. create, renew and destroy are called by one thread at a
+ *     time [main-thread].
  *   - Rounding is to nearest. Every bound must hold in spite of rounding: pad
  *     outward (<impinge/interval.h> has the helpers).
  *
@@ -475,6 +475,18 @@ typedef struct imp_surface_type {
      * numbers. IMP_STATUS_UNBOUNDED: the instance has no formula, and what was printed is ignored.
      * Other statuses are errors. It may allocate. [thread-safe] */
     imp_status (*write_formula)(const void *self, const imp_text_sink *to);
+
+    /* Capability `renew`; NULL, or a struct_size that ends before it: there is none.
+     *
+     * Refills an instance with other values, instead of destroy and create, for hosts whose numbers
+     * change again and again. On IMP_STATUS_OK all callbacks answer, bit for bit, as those of a new
+     * instance that create made from these values; its pieces may be others than before. On any
+     * other status the values are wrong, or more than the instance has room for; then it may hold
+     * anything, and the host does nothing with it but destroy it, and calls create, whose answer
+     * counts. `why` is as in create, and what it says of a failure is not read. A renew for values
+     * of the same shapes as before should not allocate. The host calls it only while nothing else
+     * uses the instance. [main-thread] */
+    imp_status (*renew)(void *self, const imp_value *values, imp_create_error *why);
 } imp_surface_type;
 
 #define IMP_PIECES_MAX ((size_t)1 << 24)
@@ -552,6 +564,9 @@ typedef struct imp_map_type {
      * refuses; the other callbacks are those of the map where each clock is in the middle of its
      * range. */
     const char *parts;
+
+    /* Capability `renew`, as in imp_surface_type. [main-thread] */
+    imp_status (*renew)(void *self, const imp_value *values, imp_create_error *why);
 } imp_map_type;
 
 /* --- The plugin ------------------------------------------------------------------------------- */
@@ -703,7 +718,7 @@ IMP_LAYOUT(sizeof(imp_net) == 2104 && offsetof(imp_net, place) == 16);
 IMP_LAYOUT(offsetof(imp_net, error) == 64 && offsetof(imp_net, point) == 88);
 IMP_LAYOUT(offsetof(imp_net, velocity) == 952 && offsetof(imp_net, weight) == 1816);
 IMP_LAYOUT(sizeof(imp_text_sink) == 24 && offsetof(imp_text_sink, add) == 16);
-IMP_LAYOUT(sizeof(imp_surface_type) == 168 && offsetof(imp_surface_type, name) == 16);
+IMP_LAYOUT(sizeof(imp_surface_type) == 176 && offsetof(imp_surface_type, name) == 16);
 IMP_LAYOUT(offsetof(imp_surface_type, create) == 64 && offsetof(imp_surface_type, include) == 104);
 IMP_LAYOUT(offsetof(imp_surface_type, net) == 112);
 IMP_LAYOUT(offsetof(imp_surface_type, piece_count) == 120);
@@ -711,16 +726,18 @@ IMP_LAYOUT(offsetof(imp_surface_type, distance) == 136);
 IMP_LAYOUT(offsetof(imp_surface_type, symmetry) == 144);
 IMP_LAYOUT(offsetof(imp_surface_type, formula) == 152);
 IMP_LAYOUT(offsetof(imp_surface_type, write_formula) == 160);
+IMP_LAYOUT(offsetof(imp_surface_type, renew) == 168);
 IMP_LAYOUT(sizeof(imp_pose) == 1680 && offsetof(imp_pose, shift) == 1224);
 IMP_LAYOUT(offsetof(imp_pose, pivot) == 1632 && offsetof(imp_pose, fixed) == 1656);
 IMP_LAYOUT(sizeof(imp_symmetry) == 56 && offsetof(imp_symmetry, center) == 8);
-IMP_LAYOUT(sizeof(imp_map_type) == 160 && offsetof(imp_map_type, name) == 16);
+IMP_LAYOUT(sizeof(imp_map_type) == 168 && offsetof(imp_map_type, name) == 16);
 IMP_LAYOUT(offsetof(imp_map_type, create) == 64 && offsetof(imp_map_type, apply) == 104);
 IMP_LAYOUT(offsetof(imp_map_type, net) == 112 && offsetof(imp_map_type, rigid) == 120);
 IMP_LAYOUT(offsetof(imp_map_type, span) == 128);
 IMP_LAYOUT(offsetof(imp_map_type, formula) == 136);
 IMP_LAYOUT(offsetof(imp_map_type, write_formula) == 144);
 IMP_LAYOUT(offsetof(imp_map_type, parts) == 152);
+IMP_LAYOUT(offsetof(imp_map_type, renew) == 160);
 IMP_LAYOUT(sizeof(imp_surface_factory) == 16 && sizeof(imp_map_factory) == 16);
 IMP_LAYOUT(sizeof(imp_plugin) == 56 && offsetof(imp_plugin, name) == 16);
 IMP_LAYOUT(offsetof(imp_plugin, get_factory) == 48);

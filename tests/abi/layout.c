@@ -121,6 +121,8 @@ static void types(void)
     CALL(imp_surface_type, symmetry, imp_status(*)(const void *, imp_symmetry *));
     FIELD(imp_surface_type, formula), FIELD(imp_surface_type, write_formula);
     CALL(imp_surface_type, write_formula, imp_status(*)(const void *, const imp_text_sink *));
+    FIELD(imp_surface_type, renew);
+    CALL(imp_surface_type, renew, imp_status(*)(void *, const imp_value *, imp_create_error *));
     CALL(imp_surface_type, domain, void (*)(const void *, double *, double *));
     CALL(imp_surface_type, rate,
          imp_status(*)(const void *, const imp_region *, imp_rate_matrix *));
@@ -138,7 +140,8 @@ static void types(void)
     CALL(imp_map_type, span, void (*)(const void *, double *, double *));
     FIELD(imp_map_type, formula), FIELD(imp_map_type, write_formula);
     CALL(imp_map_type, write_formula, imp_status(*)(const void *, const imp_text_sink *));
-    FIELD(imp_map_type, parts);
+    FIELD(imp_map_type, parts), FIELD(imp_map_type, renew);
+    CALL(imp_map_type, renew, imp_status(*)(void *, const imp_value *, imp_create_error *));
 }
 
 static void plugins(void)

@@ -95,6 +95,12 @@ leaves() {
     exposes memory liar_refusal '64 times size=-1, rejected or destroyed, leak'
 }
 
+@test "an instance that is refilled like no new one is exposed" {
+    exposes renewal liar_renew "eval's points differ between an instance refilled by renew and a new one"
+    "$IMPINGE" check sphere --only renewal | grep -q "pass  renewal  *an instance that renew refills"
+    "$IMPINGE" check mesh --only renewal | grep -q "skip  renewal  *it has no renew"
+}
+
 @test "a complaint that is longer than its place is exposed" {
     exposes parameters create_overflows 'create wrote beyond the imp_create_error it was given'
 }

@@ -123,4 +123,6 @@ bool alloc_failure_end(void)
     return reached;
 }
 
+size_t alloc_failure_calls(void) { return calls; }
+
 size_t alloc_failure_live(void) { return live; }

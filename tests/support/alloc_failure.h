@@ -20,6 +20,9 @@ void alloc_failure_begin(size_t n);
 /* Back to normal. True if the n-th allocation was reached. */
 bool alloc_failure_end(void);
 
+/* Allocations since alloc_failure_begin. */
+size_t alloc_failure_calls(void);
+
 /* Blocks allocated and not freed. */
 size_t alloc_failure_live(void);
 

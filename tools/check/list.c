@@ -25,6 +25,7 @@
 #include "tools/check/proof.h"
 #include "tools/check/purity.h"
 #include "tools/check/rates.h"
+#include "tools/check/renewal.h"
 #include "tools/check/state.h"
 #include "tools/check/table.h"
 
@@ -46,6 +47,7 @@ static const check all[] = {
     {.name = "build", .of_file = build_check},
     {.name = "parameters", .of_stage = parameters_check},
     {.name = "arguments", .of_stage = arguments_check},
+    {.name = "renewal", .of_stage = renewal_check},
     {.name = "memory", .of_stage = memory_check},
     {.name = "finite", .of_subject = finite_check},
     {.name = "domain", .of_subject = domain_check},
@@ -71,10 +73,10 @@ static const check all[] = {
     {.name = "cost", .of_subject = cost_check},
 };
 const char *const check_names[] = {
-    "exports", "factories",   "build",      "parameters",  "arguments",   "memory",  "finite",
-    "domain",  "determinism", "state",      "allocations", "environment", "buffers", "pieces",
-    "rates",   "errors",      "inclusions", "nets",        "poses",       "parts",   "distances",
-    "formula", "proof",       "tightness",  "cost",        NULL};
+    "exports",   "factories", "build",       "parameters", "arguments",   "renewal",     "memory",
+    "finite",    "domain",    "determinism", "state",      "allocations", "environment", "buffers",
+    "pieces",    "rates",     "errors",      "inclusions", "nets",        "poses",       "parts",
+    "distances", "formula",   "proof",       "tightness",  "cost",        NULL};
 
 _Static_assert(sizeof all / sizeof *all + 1 == sizeof check_names / sizeof *check_names,
                "a name for each");

@@ -119,3 +119,47 @@ void determinism_check(const subject *s, uint64_t *random, double effort)
     if (!same(s, &first, &other, "between instances of the same parameters")) return;
     same_in_threads(s, &q, &first);
 }
+
+/* --- Two instances ---------------------------------------------------------------------------- */
+
+/* The net over a box, and the distance of its centre in space; of statuses that fail, zeros. */
+typedef struct offers {
+    imp_net net;
+    imp_model distance;
+    imp_status status[2];
+} offers;
+
+static void ask_offers(const subject *s, const box *where, offers *o)
+{
+    const imp_surface_type *type = s->instance->surface;
+    memset(o, 0, sizeof *o);
+    if (type == NULL) return;
+    const imp_region region = imp_region_between(where->lo, where->hi);
+    if (IMP_OFFERS(type, net)) o->status[0] = subject_net(s, &region, &o->net);
+    if (o->status[0] != IMP_STATUS_OK) memset(&o->net, 0, sizeof o->net);
+    if (!subject_has_distance(s)) return;
+    imp_model point[4];
+    for (int j = 0; j < 3; ++j) point[j] = imp_param(&region, j);
+    point[3] = imp_param(&region, 2);
+    o->status[1] = subject_distance(s, point, &o->distance);
+    if (o->status[1] != IMP_STATUS_OK) memset(&o->distance, 0, sizeof o->distance);
+}
+
+bool purity_are_alike(const subject *s, const subject *other, uint64_t *random, const char *when)
+{
+    static questions q;
+    static answers first, second;
+    offers x, y;
+    draw_questions(s, random, &q);
+    ask(s, &q, &first);
+    ask(other, &q, &second);
+    if (!same(s, &first, &second, when)) return false;
+    for (int k = 0; k < BOXES; ++k) {
+        ask_offers(s, &q.where[k], &x);
+        ask_offers(other, &q.where[k], &y);
+        s->answer->tests += 1;
+        if (memcmp(&x, &y, sizeof x) != 0)
+            return answer_fail(s->answer, "nets or distances differ %s", when);
+    }
+    return true;
+}
