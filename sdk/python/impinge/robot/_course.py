@@ -86,7 +86,7 @@ class Course:
     def table(self, name: str, along: Optional[Sequence[float]] = None) -> Dict[str, Any]:
         """The parameters of a map whose values have that name: numbers, or vectors along a direction."""
         def column(x: values.Floats) -> values.Floats:
-            return x if along is None else numpy.outer(x, along)
+            return x if along is None else numpy.array(numpy.outer(x, along), dtype=float)
 
         made: Dict[str, Any] = {"times": self.times, name: column(self.positions)}
         if self.interpolation == "cubic":
@@ -162,7 +162,9 @@ def _floating(joint: Joint, courses: Mapping[str, Course]) -> List[Stage]:
 def _spins(times: values.Floats, rotations: values.Floats) -> values.Floats:
     """The angular velocities that lead from each quaternion (w, x, y, z) to the next the shorter way."""
     spins = []
-    for h, (w, x, y, z), (d, a, b, c) in zip(numpy.diff(times), rotations, rotations[1:]):
+    steps: Any = numpy.diff(times).tolist()
+    turns: Any = rotations.tolist()
+    for h, (w, x, y, z), (d, a, b, c) in zip(steps, turns, turns[1:]):
         real = d * w + a * x + b * y + c * z
         way = numpy.array([a * w - d * x + b * -z + c * y, b * w - d * y + c * -x + a * z,
                            c * w - d * z + a * -y + b * x])
