@@ -201,9 +201,10 @@ void batch_sum_up(batch *b)
         remark(speaker,
                "%s: %zu of %zu lines could not be answered; their errors are in their places",
                b->name, b->failures, b->line);
-    if (interrupt_came())
-        batch_keep_worst(b, complain(EXIT_UNDECIDED, speaker, "%s: interrupted after line %zu",
-                                     b->name, b->answered));
+    if (interrupt_came()) {
+        remark(speaker, "%s: interrupted after line %zu", b->name, b->answered);
+        batch_keep_worst(b, EXIT_UNDECIDED);
+    }
 }
 
 void batch_end(batch *b)

@@ -149,6 +149,7 @@ exit_status clearance_print_json(json_t *object, const clearance_table *table, b
     puts("]}");
     const exit_status status = output_flush(verb);
     if (status != EXIT_ANSWERED || k == table->count) return status;
-    return complain(EXIT_UNDECIDED, verb, "interrupted: the last %zu of %zu %s were not printed",
-                    table->count - k, table->count, slices ? "slices" : "pairs of bodies");
+    remark(verb, "interrupted: the last %zu of %zu %s were not printed", table->count - k,
+           table->count, slices ? "slices" : "pairs of bodies");
+    return EXIT_UNDECIDED;
 }

@@ -82,9 +82,9 @@ static char first_error[TEXT];
 
 const char *complain_first(void) { return first_error[0] != '\0' ? first_error : NULL; }
 
-static bool is_error(exit_status status)
+static bool is_answer(exit_status status)
 {
-    return status != EXIT_ANSWERED && status != EXIT_CONTACT && status != EXIT_UNDECIDED;
+    return status == EXIT_ANSWERED || status == EXIT_CONTACT;
 }
 
 static void say(const char *verb, const char *text)
@@ -101,7 +101,7 @@ exit_status complain(exit_status status, const char *verb, const char *format, .
     va_start(list, format);
     vsnprintf(text, sizeof text, format, list);
     va_end(list);
-    if (is_error(status) && first_error[0] == '\0') memcpy(first_error, text, sizeof text);
+    if (!is_answer(status) && first_error[0] == '\0') memcpy(first_error, text, sizeof text);
     say(verb, text);
     return status;
 }

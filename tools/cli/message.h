@@ -48,8 +48,9 @@ exit_status complain(exit_status status, const char *verb, const char *format, .
 /* Writes a line like complain, for warnings that are no errors. */
 void remark(const char *verb, const char *format, ...) __attribute__((format(printf, 2, 3)));
 
-/* Returns the text of the first complaint with an error's status (2, or from 4 on), or NULL: with
- * --json it becomes the object {"error": text} (output_finish). */
+/* Returns the text of the first complaint with another status than 0 or 1, or NULL: with --json it
+ * becomes the object {"error": text} (output_error_object). What is said beside an answer that was
+ * printed is a remark, not a complaint. */
 const char *complain_first(void);
 
 /* Returns the text of an error; if it has none, that of its code. */

@@ -128,11 +128,7 @@ exit_status view_write(subject *what, const view_request *request, written *w)
     if (code == IMP_ERROR_FILE && error.text[0] == '\0') return EXIT_DATA; /* complained of */
     if (code == IMP_SUCCESS) return status;
     if (!allowance_ended(&what->allowance)) return complain_of(&error, request->verb);
-    complain(EXIT_UNDECIDED, request->verb, "%s; nothing was written", error.text);
-    if (!request->json) return EXIT_UNDECIDED;
-    const exit_status told =
-        output_json(json_pack("{s:o}", "error", output_json_text(error.text)), request->verb);
-    return told != EXIT_ANSWERED ? told : EXIT_UNDECIDED;
+    return complain(EXIT_UNDECIDED, request->verb, "%s; nothing was written", error.text);
 }
 
 /* --- The report ------------------------------------------------------------------------------- */
