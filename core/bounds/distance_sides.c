@@ -33,9 +33,9 @@ static imp_code find_slip(const node *own, const node *other, const surface_plan
     if ((plane == NULL && other->many != NULL) || !node_bare_models(own, bare)) return IMP_SUCCESS;
     const imp_region all = all_of(times);
     const surface *a = own->surface, *b = other->surface;
-    const imp_status status = plane == NULL
-                                  ? surface_slip(a, b, bare, &all, moment, enough, slip)
-                                  : surface_slip_along(a, b, plane, bare, &all, moment, slip);
+    const imp_status status =
+        plane == NULL ? surface_slip(a, b, bare, &all, moment, enough, slip)
+                      : surface_slip_along(a, b, plane, bare, &all, moment, enough, slip);
     return status == IMP_STATUS_OK ? IMP_SUCCESS : distance_fault(b, status, error);
 }
 

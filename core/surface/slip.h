@@ -17,6 +17,7 @@ typedef struct slip_input {
     imp_region then;
     imp_symmetry found;    /* of b */
     const imp_model *bare; /* a before its maps */
+    double enough;         /* a slip that is not refined; no greater one is known. 0: none */
 } slip_input;
 
 /* The symmetry's center, and the end of its axis if the axis matters, in a's coordinates before its

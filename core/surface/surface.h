@@ -243,7 +243,7 @@ imp_status surface_plane_of(const surface *s, const imp_region *region, surface_
  * maps in common. */
 imp_status surface_slip_along(const surface *a, const surface *b, const surface_plane *plane,
                               const imp_model bare[3], const imp_region *times, double moment,
-                              double *slip);
+                              double enough, double *slip);
 
 /* Like surface_distance_within under all maps of s, for the distance from the part of s that lies
  * along the plane. */

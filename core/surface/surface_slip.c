@@ -145,14 +145,16 @@ static imp_status slip_over(const slip_input *q, const slip_place *then, const i
     if (!(found >= 0)) found = INFINITY; /* NaN */
     if (status != IMP_STATUS_OK && status != IMP_STATUS_UNBOUNDED) return status;
     const bool divides = halvings > 0 && times->lo[2] < middle && middle < times->hi[2];
-    if (found <= GOOD_ENOUGH * then->far || !divides) {
+    if (found <= q->enough || found <= GOOD_ENOUGH * then->far || !divides) {
+        if (q->enough > 0 && found > q->enough) found = INFINITY;
         if (!(found <= *slip)) *slip = found;
         return IMP_STATUS_OK;
     }
     const imp_region first = slip_at_times(times, times->lo[2], middle);
     const imp_region second = slip_at_times(times, middle, times->hi[2]);
     const imp_status before = slip_over(q, then, &first, halvings - 1, slip);
-    return before == IMP_STATUS_OK ? slip_over(q, then, &second, halvings - 1, slip) : before;
+    if (before != IMP_STATUS_OK || *slip == INFINITY) return before;
+    return slip_over(q, then, &second, halvings - 1, slip);
 }
 
 /* Whether the motion surely leaves b's symmetry, by its slip between both ends of the times. */
@@ -217,7 +219,7 @@ imp_status surface_slip(const surface *a, const surface *b, const imp_model bare
 
 imp_status surface_slip_along(const surface *a, const surface *b, const surface_plane *plane,
                               const imp_model bare[3], const imp_region *times, double moment,
-                              double *slip)
+                              double enough, double *slip)
 {
     slip_input q = {.a = a,
                     .b = b,
@@ -225,7 +227,8 @@ imp_status surface_slip_along(const surface *a, const surface *b, const surface_
                     .b_maps = b->map_count,
                     .then = slip_at_times(times, moment, moment),
                     .found = {.kind = IMP_SYMMETRY_ACROSS_LINE},
-                    .bare = bare};
+                    .bare = bare,
+                    .enough = enough};
     memcpy(q.found.center, plane->center, sizeof q.found.center);
     memcpy(q.found.axis, plane->axis, sizeof q.found.axis);
     *slip = INFINITY;
