@@ -287,11 +287,12 @@ endif
 tools_impinge_verify_kernel_SOURCES = tools/kernel/main.c
 tools_impinge_verify_kernel_LDADD = tools/libkernel.la
 tools_libkernel_la_SOURCES = \
-    tools/kernel/claim.c tools/kernel/claim.h \
-    tools/kernel/expression.c tools/kernel/expression.h \
+    tools/kernel/kernel.h \
+    tools/kernel/claim.c \
+    tools/kernel/expression.c \
     tools/kernel/leaf.c \
-    tools/kernel/slope.c tools/kernel/slope.h \
-    tools/kernel/trees.c tools/kernel/trees.h
+    tools/kernel/slope.c \
+    tools/kernel/trees.c
 tools_libkernel_la_LIBADD = $(MPFI_LIBS) -lm
 tools_impinge_verify_SOURCES = \
     core/common/search_path.c core/common/search_path.h \
@@ -338,6 +339,7 @@ tools_libverify_la_SOURCES = \
     tools/verify/net_jets.c \
     tools/verify/round.c tools/verify/round.h \
     tools/verify/shadow.c tools/verify/shadow.h \
+    tools/verify/sides.c tools/verify/sides.h \
     tools/verify/statement.c tools/verify/statement.h \
     tools/verify/statement_internal.h \
     tools/verify/statement_stage.c \

@@ -59,6 +59,17 @@ __attribute__((format(printf, 2, 3))) static void put(file *f, const char *forma
     if (size > 0) put_bytes(f, text, (size_t)size < sizeof text ? (size_t)size : sizeof text - 1);
 }
 
+/* Writes a name of any length; % and bytes that are no printable ASCII as % and two digits, so that
+ * no character is a control, or hidden, or looks like another one. */
+static void put_name(file *f, const char *name)
+{
+    for (; *name != '\0'; ++name)
+        if (*name >= ' ' && *name <= '~' && *name != '%')
+            put_bytes(f, name, 1);
+        else
+            put(f, "%%%02x", (unsigned char)*name);
+}
+
 static size_t chain_of(const file *f, size_t body, size_t at) { return f->first_chain[body] + at; }
 
 /* --- What is claimed -------------------------------------------------------------------------- */
@@ -78,7 +89,7 @@ static void put_claim(file *f, const char *stated)
     for (size_t k = 0; k < parameter_count(f); ++k) {
         const char *name = scene_parameters_read(f->scene)->at[k].name;
         put(f, "parameter %a %a ", c->ranges[2 * k], c->ranges[2 * k + 1]);
-        put_bytes(f, name, strlen(name)); /* of any length */
+        put_name(f, name);
         put(f, "\n");
     }
     if (!c->has_points) return;
@@ -165,7 +176,7 @@ static imp_code put_scene(file *f, imp_error *error)
     for (size_t b = 0; b < bodies; ++b) {
         const char *name = imp_scene_body_name(f->scene, b);
         put(f, "body ");
-        put_bytes(f, name, strlen(name)); /* of any length */
+        put_name(f, name);
         put(f, "\n");
         for (size_t k = 0; k < scene_surface_count(f->scene, b) && code == IMP_SUCCESS; ++k)
             code = put_chain(f, b, scene_surface(f->scene, b, k), error);

@@ -87,11 +87,11 @@ static int compare_paths(const void *x, const void *y)
     return strcmp(((const scene_file *)x)->path, ((const scene_file *)y)->path);
 }
 
-/* Writes a name; bytes that would change how a line looks, and %, as % and two digits. */
+/* Writes a name; bytes that are no printable ASCII, and %, as % and two digits. */
 static void put_name(const char *name, FILE *to)
 {
     for (const char *c = name; *c != '\0'; ++c)
-        if ((unsigned char)*c < ' ' || *c == 127 || *c == '%')
+        if (*c < ' ' || *c > '~' || *c == '%')
             fprintf(to, "%%%02x", (unsigned char)*c);
         else
             fputc(*c, to);

@@ -345,13 +345,14 @@ typedef struct imp_text_sink {
  * stand before what uses them. `variable in [lo, hi]` is the domain, closed: of a surface those of
  * u and v are said, and t has all times if none are said; of a map only t may have one. Its ends
  * are without variables, and those of t may be -inf and inf. `name = sum` defines a name, letters,
- * digits and '_', a letter first, which is no variable, function or name that has a meaning
+ * digits and '_', a letter first, which is no variable, function, pi, e or name that has a meaning
  * already, but may be one of a parameter that stands for nothing here. Blanks and line ends
  * separate.
  *
  * Names that are not defined are pi, e, and the numbers among the instance's parameters: of a
  * number, integer or boolean (0 or 1) by its name, of an array with the place behind it, row-major
- * from 0, as in center0; only those of a fixed shape. Names of parameters come before pi and e.
+ * from 0, as in center0; only those of a fixed shape. A parameter should not be named pi or e: in
+ * a certificate it would be defined, and impinge-verify refuses that.
  * Functions are those that `impinge info formula` lists. Numbers are decimal or as C's hexadecimal
  * ones, and stand for the nearest double; all else is exact: real numbers, no rounding.
  *

@@ -5,7 +5,7 @@
 #include <string.h>
 
 #include "tests/fuzz/fuzz.h"
-#include "tools/kernel/trees.h"
+#include "tools/kernel/kernel.h"
 #include "tools/verify/elaborate.h"
 
 /* Whatever bytes a certificate holds, the kernel ends with an answer; what is elaborated of one, it

@@ -175,9 +175,22 @@ static const claim_change plates_claims[] = {
     {"clear\napart 1\n", "undecided\napart 0\n", true},
     /* names */
     {" w\n", " t\n", true},
-    {" w\n", " it's\\ \xc3\x9f\xc2\xa0\n", true},
-    {" w\n", " \xc2\x85\n", false},
+    {" w\n", " it's\\ %c3%9f\n", true},
+    {" w\n", " \xc3\x9f\n", false},
+    {" w\n", " \x85\n", false},
+    {" w\n", " \x7f\n", false},
     {"body a\n", "body \xc2\x9bK\n", false},
+    {"body a\n",
+     "body \xe2\x80\xae"
+     "a\n",
+     false}, /* U+202E: from right to left */
+    {"body a\n",
+     "body \xe2\x81\xa6"
+     "a\n",
+     false},
+    {"body a\n", "body a\t\n", false},
+    {"u in [-9", "pi = 3; u in [-9", false},
+    {"u in [-9", "t = 3; u in [-9", false},
     {"u in [-9", "inf = 3; u in [-9", false},
     {"u in [-9", "sin = 3; u in [-9", false},
     {"u in [-9", "_a = 3; u in [-9", false},

@@ -127,6 +127,7 @@ START_TEST(every_kind_of_leaf_proves_what_is_true_and_refuses_what_is_false)
     } kinds[] = {
         {"no axis", 1, {7}},
         {"an axis", 7, {5, 0, 0, 0, 0, 0x7f, 0xff}},
+        {"an axis, and sides that are divided", 13, {9, 0, 0, 0, 0, 0x7f, 0xff, 0, 2, 1, 2, 2, 2}},
         {"an axis that points back", 7, {5, 0, 0, 0, 0, 0x80, 1}},
         {"an axis across", 7, {5, 0x7f, 0xff, 0, 0, 0, 0}},
         {"an axis of no length", 7, {5, 0, 0, 0, 0, 0, 0}},

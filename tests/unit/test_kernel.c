@@ -2,12 +2,13 @@
  * SPDX-License-Identifier: Apache-2.0 */
 #include <config.h>
 
+#include <mpfi.h>
 #include <stdio.h>
 #include <stdlib.h>
 
 #include "tests/support/made_texts.h"
 #include "tests/support/suite.h"
-#include "tools/kernel/trees.h"
+#include "tools/kernel/kernel.h"
 #include "tools/verify/elaborate.h"
 
 /* impinge-verify-kernel on certificates that are made here, elaborated, and changed: whatever it
@@ -244,20 +245,22 @@ static void require_slopes(const char *text, uint64_t *seed)
     slope in[3], single[3], out[3], at[3];
     double middle[3], x[3];
     const char *why, *rest = text;
+    memo wide = {.of = NULL}, narrow = {.of = NULL};
     expression *e = expression_read(&rest, "uvt", said, &why);
     ck_assert_msg(e != NULL, "%s: %s", text, why);
     for (int k = suite_times(100); k > 0; --k) {
         for (int j = 0; j < 3; ++j) {
             const double a = random_between(seed, -2, 2), b = a + random_between(seed, 0, 1.5);
-            const range where = {a, b};
+            const bool again = wide.of != NULL && random_between(seed, 0, 1) < 0.4; /* as before */
+            const range where = again ? in[j].v : (range){a, b};
             middle[j] = range_middle(where);
             offset[j] = range_sub(where, range_of(middle[j]));
             in[j] = slope_variable(j, where, offset);
-            x[j] = random_between(seed, a, b);
+            x[j] = random_between(seed, where.lo, where.hi);
             single[j] = slope_fixed(range_of(x[j]));
         }
-        expression_compute(e, in, out);
-        expression_compute(e, single, at);
+        ck_assert(expression_compute(e, &wide, 0, in, out));
+        ck_assert(expression_compute(e, &narrow, 0, single, at));
         for (int i = 0; i < 3; ++i) {
             if (out[i].is_undefined) continue;
             range sum = out[i].c;
@@ -275,6 +278,8 @@ static void require_slopes(const char *text, uint64_t *seed)
         }
     }
     free(e);
+    free(wide.value);
+    free(narrow.value);
 }
 
 START_TEST(slopes_enclose_values)
@@ -291,6 +296,106 @@ START_TEST(slopes_enclose_values)
 }
 END_TEST
 
+/* --- Arithmetic ------------------------------------------------------------------------------- */
+
+static double drawn_number(uint64_t *seed)
+{
+    static const double special[] = {0,       -0.0,     1,          -1,       0.1,    3,
+                                     0x1p-53, 0x1p-500, -0x1p-1074, 0x1p1000, -1e308, 0x1p400};
+    const double kind = random_between(seed, 0, 1), x = random_between(seed, -2, 2);
+    if (kind < 0.3) return special[(size_t)(random_between(seed, 0, 0.999999) * 12)];
+    if (kind < 0.6) return ldexp(x, (int)random_between(seed, -60, 60));
+    return kind < 0.8 ? (double)(float)x : x;
+}
+
+static range drawn_range(uint64_t *seed)
+{
+    const double x = drawn_number(seed),
+                 y = random_between(seed, 0, 1) < 0.4 ? x : drawn_number(seed);
+    return (range){fmin(x, y), fmax(x, y)};
+}
+
+static bool is_plain(range x)
+{
+    const double size[2] = {fabs(x.lo), fabs(x.hi)};
+    for (int k = 0; k < 2; ++k)
+        if (size[k] != 0 && !(size[k] > 0x1p-400 && size[k] < 0x1p400)) return false;
+    return true;
+}
+
+/* Sums, products and quotients are MPFI's where nothing over- or underflows, and contain them
+ * elsewhere. */
+START_TEST(arithmetic_rounds_like_mpfi)
+{
+    static range (*const own[])(range, range) = {range_add, range_sub, range_mul, range_div};
+    static int (*const other[])(mpfi_ptr, mpfi_srcptr, mpfi_srcptr) = {mpfi_add, mpfi_sub, mpfi_mul,
+                                                                       mpfi_div};
+    uint64_t seed = suite_seed();
+    mpfi_t a, b, c;
+    mpfi_init2(a, 53), mpfi_init2(b, 53), mpfi_init2(c, 53);
+    for (int k = suite_times(40000); k > 0; --k) {
+        const range x = drawn_range(&seed), y = drawn_range(&seed);
+        if (k % 4 == 3 && range_has_0(y)) continue;
+        const range r = own[k % 4](x, y);
+        mpfi_interv_d(a, x.lo, x.hi), mpfi_interv_d(b, y.lo, y.hi);
+        other[k % 4](c, a, b);
+        const double lo = mpfr_get_d(&c->left, MPFR_RNDD), hi = mpfr_get_d(&c->right, MPFR_RNDU);
+        const bool good =
+            is_plain(x) && is_plain(y) ? r.lo == lo && r.hi == hi : r.lo <= lo && r.hi >= hi;
+        ck_assert_msg(good, "%d: [%a, %a] and [%a, %a]: [%a, %a], not [%a, %a]", k % 4, x.lo, x.hi,
+                      y.lo, y.hi, r.lo, r.hi, lo, hi);
+    }
+    mpfi_clear(a), mpfi_clear(b), mpfi_clear(c);
+}
+END_TEST
+
+/* --- Leaves whose sides are divided ----------------------------------------------------------- */
+
+START_TEST(sides_of_a_leaf_are_divided_as_its_trees_say)
+{
+    static const struct {
+        uint8_t trees[8];
+        size_t size;
+        bool holds;
+    } all[] = {{{2, 2}, 2, true},    {{0, 2, 1, 2, 2, 2}, 6, true}, {{2, 1, 1, 2, 2, 2}, 6, true},
+               {{2}, 1, false},      {{0, 2, 2, 1, 2}, 5, false},   {{3, 2, 2, 2}, 4, false},
+               {{2, 2, 2}, 3, false}};
+    for (size_t k = 0; k < sizeof all / sizeof *all; ++k) {
+        certificate c = plates_made();
+        const size_t leaf = c.size - 7; /* 5, and the axis; 9 begins a leaf with two trees */
+        ck_assert_int_eq(c.bytes[leaf], 5);
+        c.bytes[leaf] = 9;
+        memcpy(c.bytes + c.size, all[k].trees, all[k].size);
+        c.size += all[k].size;
+        ck_assert_msg(accepts(&c) == all[k].holds, "trees %zu", k);
+        c.bytes[c.size - all[k].size - 2] = 0x7f; /* another axis */
+        ck_assert(!accepts(&c));
+    }
+}
+END_TEST
+
+/* A hill under a plane: no single enclosure of the hill parts them by one axis, its parts do; and
+ * not if it is higher. */
+START_TEST(parts_of_a_side_all_count)
+{
+    static const char hill[] =
+        "impinge certificate 1\nprogram impinge 0\nverdict clear\napart 0.5\nfrom 0\nto 1\n"
+        "body hill\nshape 1 hill\nu in [-1, 1]; v in [-1, 1]; u; v; 1 - u^2 - v^2 + u*v\n"
+        "surface 0 0\nbody lid\nshape 1 lid\nu in [-1, 1]; v in [-1, 1]; u; v; 1.6 + 0*t\n"
+        "surface 1 1\ntrees\n";
+    static const uint8_t entries[] = {0, 1, 0, 7};
+    const certificate c = made(hill, entries, sizeof entries), long_one = made_for_kernel(c);
+    const uint8_t *at = memmem(long_one.bytes, long_one.size, "trees\n", 6);
+    ck_assert_ptr_nonnull(at);
+    ck_assert_int_eq(at[6 + 3], 9);
+    certificate higher = long_one;
+    replace(&higher, "; 1 - u^2", "; 1.2 - u^2");
+    ck_assert(!accepts(&higher));
+}
+END_TEST
+
 SUITE_MAIN("kernel", elaborated_certificates_hold, what_is_not_elaborated_is_refused,
            false_claims_are_refused, what_is_said_otherwise_is_refused,
-           no_change_makes_a_false_statement_hold, slopes_enclose_values)
+           no_change_makes_a_false_statement_hold, slopes_enclose_values,
+           arithmetic_rounds_like_mpfi, sides_of_a_leaf_are_divided_as_its_trees_say,
+           parts_of_a_side_all_count)

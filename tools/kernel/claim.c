@@ -2,7 +2,7 @@
  * SPDX-License-Identifier: Apache-2.0 */
 #include <config.h>
 
-#include "tools/kernel/claim.h"
+#include "tools/kernel/kernel.h"
 
 #include <stdarg.h>
 #include <stdlib.h>
@@ -48,8 +48,7 @@ char *bytes_line(bytes *in)
         const unsigned c = bytes_next(in);
         char *line = list;
         if (c == '\n') return line; /* room that was made is 0 */
-        const bool is_high = length > 0 && line[length - 1] == '\xc2' && c < 0xa0; /* UTF-8 */
-        if (bytes_are_good(in) && (c < ' ' || c == 127 || is_high || length == LONGEST))
+        if (bytes_are_good(in) && (c < ' ' || c > '~' || length == LONGEST))
             bytes_refuse(in, "a line is too long, or holds byte %u", c);
         line[length++] = (char)c;
     }
@@ -240,20 +239,6 @@ static bool read_line(claim *c, bytes *in, char *rest)
            bytes_refuse(in, "a line '%.40s' is wrong", key);
 }
 
-static bool check(const claim *c, bytes *in)
-{
-    if (c->verdict == NULL || !(c->needs_gap ? c->apart > 0 : c->apart >= 0) ||
-        (c->needs_points && !c->has_points))
-        bytes_refuse(in, "it has no verdict, points or distance");
-    for (size_t k = 0; k < c->clock_count; ++k) {
-        const range all = c->clocks[k].all;
-        const double at = c->has_points ? c->clocks[k].at : all.lo;
-        if (!(all.lo <= all.hi && all.lo <= at && at <= all.hi))
-            bytes_refuse(in, "it says no times or values, or its points are of others");
-    }
-    return bytes_are_good(in);
-}
-
 bool claim_read(claim *c, bytes *in)
 {
     *c = (claim){.apart = NAN, .clock_count = 1, .clocks = {{.all = {NAN, NAN}}}};
@@ -268,7 +253,16 @@ bool claim_read(claim *c, bytes *in)
     } while (line != NULL && read_line(c, in, line));
     free(line);
     if (is_first && c->clock_count > 1) bytes_refuse(in, "a parameter is in format 1");
-    return check(c, in);
+    if (c->verdict == NULL || !(c->needs_gap ? c->apart > 0 : c->apart >= 0) ||
+        (c->needs_points && !c->has_points))
+        bytes_refuse(in, "it has no verdict, points or distance");
+    for (size_t k = 0; k < c->clock_count; ++k) {
+        const range all = c->clocks[k].all;
+        const double at = c->has_points ? c->clocks[k].at : all.lo;
+        if (!(all.lo <= all.hi && all.lo <= at && at <= all.hi))
+            bytes_refuse(in, "it says no times or values, or its points are of others");
+    }
+    return bytes_are_good(in);
 }
 
 void claim_free(claim *c)
@@ -280,6 +274,7 @@ void claim_free(claim *c)
             free(p->parts);
         }
         free(c->stages[k].pieces);
+        free(c->stages[k].last.value);
     }
     for (size_t k = 0; k < c->surface_count; ++k) free(c->surfaces[k].stages);
     for (size_t k = 0; k < c->body_count; ++k) free(c->bodies[k]);
@@ -288,13 +283,4 @@ void claim_free(claim *c)
     free(c->surfaces);
     free(c->bodies);
     free(c->ignored);
-}
-
-bool claim_ignores(const claim *c, size_t body, size_t other)
-{
-    bool ignored = body == other;
-    for (size_t k = 0; k < c->ignored_count; ++k)
-        for (int i = 0; i < 2; ++i)
-            ignored = ignored || (c->ignored[k][i] == body && c->ignored[k][1 - i] == other);
-    return ignored;
 }

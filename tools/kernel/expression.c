@@ -2,7 +2,7 @@
  * SPDX-License-Identifier: Apache-2.0 */
 #include <config.h>
 
-#include "tools/kernel/expression.h"
+#include "tools/kernel/kernel.h"
 
 #include <stdlib.h>
 #include <string.h>
@@ -299,17 +299,30 @@ expression *expression_read(const char **text, const char *variables,
     return e;
 }
 
-void expression_compute(const expression *e, const slope *variables, slope out[3])
+bool expression_compute(const expression *e, memo *m, int first, const slope *in, slope out[3])
 {
-    static slope value[STEPS_MAX];
-    for (int k = 0; k < e->count; ++k) {
-        const step *s = &e->steps[k];
-        if (s->binary != NULL)
-            value[k] = s->binary(&value[s->a], &value[s->b]);
-        else if (s->unary != NULL)
-            value[k] = s->unary(&value[s->a]);
-        else
-            value[k] = s->uses != 0 ? variables[s->a] : slope_fixed(s->number);
+    unsigned changed = (1u << first) - 1;
+    if (m->of != e) {
+        free(m->value);
+        m->value = malloc((size_t)e->count * sizeof *m->value);
+        changed = ~0u;
     }
-    for (int i = 0; i < 3; ++i) out[i] = value[e->out[i]];
+    m->of = m->value != NULL ? e : NULL;
+    for (int j = first; j < (first > 0 ? 4 : 3); ++j) {
+        if (in[j].v.lo != m->at[j].lo || in[j].v.hi != m->at[j].hi) changed |= 1u << j;
+        m->at[j] = in[j].v;
+    }
+    for (int k = 0; k < e->count && m->of != NULL; ++k) {
+        const step *s = &e->steps[k];
+        slope *to = &m->value[k];
+        if (changed != ~0u && (s->uses & changed) == 0) continue;
+        if (s->binary != NULL)
+            *to = s->binary(&m->value[s->a], &m->value[s->b]);
+        else if (s->unary != NULL)
+            *to = s->unary(&m->value[s->a]);
+        else
+            *to = s->uses != 0 ? in[s->a] : slope_fixed(s->number);
+    }
+    for (int i = 0; i < 3 && m->of != NULL; ++i) out[i] = m->value[e->out[i]];
+    return m->of != NULL;
 }

@@ -2,12 +2,12 @@
  * SPDX-License-Identifier: Apache-2.0 */
 #include <config.h>
 
-#include "tools/kernel/trees.h"
+#include "tools/kernel/kernel.h"
 
 static range offset_of(range x) { return range_sub(x, range_of(range_middle(x))); }
 static void add_product(range *sum, range x, range y) { *sum = range_add(*sum, range_mul(x, y)); }
 
-static const stage *stage_of(const pair *p, int side, size_t k)
+static stage *stage_of(const pair *p, int side, size_t k)
 {
     return &p->of->stages[p->side[side]->stages[k]];
 }
@@ -44,9 +44,11 @@ static bool compute(visit *v)
     for (int j = 0; j < SLOPE_VARIABLES; ++j) v->p->of->offset[j] = offset_of(v->all[j]);
     for (int j = 0; j < 2; ++j) x[j] = slope_variable(j, v->all[j], v->p->of->offset);
     for (size_t k = 0; k < v->p->side[v->side]->count; ++k) {
-        const int clock = 2 + (int)stage_of(v->p, v->side, k)->clock;
+        stage *of = stage_of(v->p, v->side, k);
+        const int clock = 2 + (int)of->clock, first = k == 0 ? 0 : 3;
         x[k == 0 ? 2 : 3] = slope_variable(clock, v->all[clock], v->p->of->offset);
-        expression_compute(v->parts[k]->f, x, x);
+        if (!expression_compute(v->parts[k]->f, &of->last, first, x, x))
+            return v->p->why = "memory ran out", false;
         if (x[0].is_undefined || x[1].is_undefined || x[2].is_undefined)
             return v->p->why = "a formula may have no value there", false;
     }
@@ -89,14 +91,7 @@ bool leaf_visit(pair *p, const cell *c, int side, leaf_visitor *visitor, void *c
     return true;
 }
 
-/* n.x is in `all`, and in p + sum_k s_k o_k, o_k being how far clock k is from its middle. */
-typedef struct bound {
-    double n[3];
-    bool some;
-    range all, p, s[CLAIM_CLOCKS];
-} bound;
-
-static void add_points(void *context, const slope x[3], bool whole)
+void leaf_add(void *context, const slope x[3], bool whole)
 {
     bound *b = context;
     slope sum = slope_fixed(range_of(0));
@@ -107,6 +102,8 @@ static void add_points(void *context, const slope x[3], bool whole)
     range p = whole ? sum.c : sum.v;
     for (int j = 0; j < 2 && whole; ++j)
         if (slope_has(&sum, j)) add_product(&p, sum.s[j], sum.offset[j]);
+    whole = whole && p.hi - p.lo < sum.v.hi - sum.v.lo; /* slopes say more */
+    if (!whole) p = sum.v;
     b->all = b->some ? range_hull(b->all, sum.v) : sum.v;
     b->p = b->some ? range_hull(b->p, p) : p;
     for (int k = 0; k < CLAIM_CLOCKS; ++k) {
@@ -116,21 +113,18 @@ static void add_points(void *context, const slope x[3], bool whole)
     b->some = true;
 }
 
-/* Lemma. |B - A| >= n.(B - A) / |n|. Of the second bound, the motion that both share is taken out.
- * A side that does not exist is apart. */
-bool leaf_holds(pair *p, const cell *c, const double n[3])
+/* Lemma. |B - A| >= n.(B - A) / |n|, whose squares are compared. Of the second bound, the motion
+ * that both share is taken out. A side that does not exist is apart. */
+bool leaf_holds(const pair *p, const cell *c, const bound *a, const bound *b)
 {
-    bound a = {.n = {n[0], n[1], n[2]}}, b = a;
-    p->why = NULL;
-    if (p->of->apart == 0) return true; /* no distance is below 0 */
-    if (n[0] == 0 && n[1] == 0 && n[2] == 0) return p->why = "it has no axis", false;
-    if (!leaf_visit(p, c, 0, add_points, &a) || !leaf_visit(p, c, 1, add_points, &b)) return false;
-    const range length = range_hypot(range_hypot(range_of(n[0]), range_of(n[1])), range_of(n[2]));
-    const double least = range_mul(length, range_of(p->of->apart)).hi;
-    range gap = range_sub(b.p, a.p);
+    const range n[3] = {range_of(a->n[0]), range_of(a->n[1]), range_of(a->n[2])};
+    const range apart = range_of(p->of->apart);
+    const double least = range_mul(range_square(n), range_mul(apart, apart)).hi;
+    range gap = range_sub(b->p, a->p);
     for (size_t k = 0; k < p->of->clock_count; ++k)
-        add_product(&gap, range_sub(b.s[k], a.s[k]), offset_of(c->clocks[k]));
-    return !a.some || !b.some || gap.lo >= least || range_sub(b.all, a.all).lo >= least;
+        add_product(&gap, range_sub(b->s[k], a->s[k]), offset_of(c->clocks[k]));
+    const double lo = fmax(gap.lo, range_sub(b->all, a->all).lo);
+    return !a->some || !b->some || (lo > 0 && range_mul(range_of(lo), range_of(lo)).lo >= least);
 }
 
 bool leaf_point(pair *p, int side, range x[3])
@@ -141,7 +135,7 @@ bool leaf_point(pair *p, int side, range x[3])
     for (size_t k = 0; k < p->of->clock_count; ++k) c.clocks[k] = range_of(p->of->clocks[k].at);
     for (int i = 0; i < 3; ++i) {
         bound b = {.n = {i == 0, i == 1, i == 2}};
-        if (!leaf_visit(p, &c, side, add_points, &b) || !b.some) return false;
+        if (!leaf_visit(p, &c, side, leaf_add, &b) || !b.some) return false;
         x[i] = b.all;
     }
     return true;

@@ -4,7 +4,7 @@
 
 #include <string.h>
 
-#include "tools/kernel/trees.h"
+#include "tools/kernel/kernel.h"
 
 /* impinge-verify-kernel: proves a certificate whose leaves need no more than their axis. */
 

@@ -2,68 +2,84 @@
  * SPDX-License-Identifier: Apache-2.0 */
 #include <config.h>
 
-#include "tools/kernel/slope.h"
+#include "tools/kernel/kernel.h"
 
 #include <float.h>
 #include <mpfi.h>
+
+#if defined __FAST_MATH__ || FLT_EVAL_METHOD != 0
+#error "sums and products must be rounded to double, and not be rearranged"
+#endif
 
 range range_both(range x, range y) { return (range){fmax(x.lo, y.lo), fmin(x.hi, y.hi)}; }
 range range_hull(range x, range y) { return (range){fmin(x.lo, y.lo), fmax(x.hi, y.hi)}; }
 range range_greatest(range x, range y) { return (range){fmax(x.lo, y.lo), fmax(x.hi, y.hi)}; }
 double range_middle(range x) { return fmin(fmax(0.5 * x.lo + 0.5 * x.hi, x.lo), x.hi); }
 
-/* Every operation goes through MPFI with as many bits as a double has, so that doubles are
- * converted exactly. What MPFI cannot say is everything. */
-
-static range taken(mpfi_srcptr x)
+/* Functions go through MPFI with as many bits as a double has, so that doubles are converted
+ * exactly. What MPFI cannot say is everything. */
+static range by(int f(mpfi_ptr, mpfi_srcptr), range x)
 {
-    if (mpfi_nan_p(x)) return RANGE_ALL;
-    return (range){mpfr_get_d(&x->left, MPFR_RNDD), mpfr_get_d(&x->right, MPFR_RNDU)};
+    mpfi_t n;
+    mpfi_init2(n, DBL_MANT_DIG);
+    mpfi_interv_d(n, x.lo, x.hi);
+    f(n, n);
+    const range r = {mpfr_get_d(&n->left, MPFR_RNDD), mpfr_get_d(&n->right, MPFR_RNDU)};
+    mpfi_clear(n);
+    return isnan(r.lo) || isnan(r.hi) ? RANGE_ALL : r;
 }
 
-/* Numbers of MPFI: two operands, then the result. */
-static mpfi_t *numbers(void)
+/* A result rounded to nearest, and what it lacks. */
+typedef struct rounded {
+    double x, lacks;
+} rounded;
+
+static rounded sum(double a, double b)
 {
-    static mpfi_t all[3];
-    for (int k = 0; k < 3 && all[k]->left._mpfr_d == NULL; ++k) mpfi_init2(all[k], DBL_MANT_DIG);
-    return all;
+    const double x = a + b, from_b = x - a;
+    return (rounded){x, (a - (x - from_b)) + (b - from_b)};
 }
 
-typedef int unary(mpfi_ptr, mpfi_srcptr);
-typedef int binary(mpfi_ptr, mpfi_srcptr, mpfi_srcptr);
+static rounded product(double a, double b) { return (rounded){a * b, fma(a, b, -(a * b))}; }
+static rounded quotient(double a, double b) { return (rounded){a / b, fma(-(a / b), b, a) / b}; }
 
-static range by(unary *f, range x)
+static bool is_plain(double x) { return x == 0 || (fabs(x) > 0x1p-400 && fabs(x) < 0x1p400); }
+static bool is_less(rounded a, rounded b) { return a.x < b.x || (a.x == b.x && a.lacks < b.lacks); }
+
+/* Lemma. What a sum (Knuth), product or quotient of plain numbers lacks is a double, but for the
+ * division by b, which keeps sign and order; so x, then `lacks`, tell the least of several. What
+ * other numbers give is between the two doubles next to it. */
+static range by_ends(rounded f(double, double), range x, range y)
 {
-    mpfi_t *n = numbers();
-    mpfi_interv_d(n[0], x.lo, x.hi);
-    f(n[2], n[0]);
-    return taken(n[2]);
+    const rounded all[] = {f(x.lo, y.lo), f(x.lo, y.hi), f(x.hi, y.lo), f(x.hi, y.hi)};
+    const bool plain = is_plain(x.lo) && is_plain(x.hi) && is_plain(y.lo) && is_plain(y.hi);
+    rounded lo = all[0], hi = all[0];
+    for (int k = 0; k < 4; ++k) {
+        if (isnan(all[k].x)) return RANGE_ALL;
+        if (is_less(all[k], lo)) lo = all[k];
+        if (is_less(hi, all[k])) hi = all[k];
+    }
+    return (range){plain && lo.lacks >= 0 ? lo.x : nextafter(lo.x, -INFINITY),
+                   plain && hi.lacks <= 0 ? hi.x : nextafter(hi.x, INFINITY)};
 }
 
-static range by_both(binary *f, range x, range y)
+range range_add(range x, range y) { return by_ends(sum, x, y); }
+range range_sub(range x, range y) { return by_ends(sum, x, range_neg(y)); }
+range range_mul(range x, range y) { return by_ends(product, x, y); }
+range range_div(range x, range y) { return range_has_0(y) ? RANGE_ALL : by_ends(quotient, x, y); }
+
+range range_square(const range x[3])
 {
-    mpfi_t *n = numbers();
-    mpfi_interv_d(n[0], x.lo, x.hi);
-    mpfi_interv_d(n[1], y.lo, y.hi);
-    f(n[2], n[0], n[1]);
-    return taken(n[2]);
+    range sum_of = range_of(0);
+    for (int i = 0; i < 3; ++i) sum_of = range_add(sum_of, range_mul(x[i], x[i]));
+    return range_both(sum_of, (range){0, INFINITY});
 }
 
-range range_add(range x, range y) { return by_both(mpfi_add, x, y); }
-range range_sub(range x, range y) { return by_both(mpfi_sub, x, y); }
-range range_hypot(range x, range y) { return by_both(mpfi_hypot, x, y); }
-range range_mul(range x, range y) { return by_both(mpfi_mul, x, y); }
-range range_div(range x, range y) { return range_has_0(y) ? RANGE_ALL : by_both(mpfi_div, x, y); }
-
-range range_pi(void)
-{
-    mpfi_t *n = numbers();
-    mpfi_const_pi(n[2]);
-    return taken(n[2]);
-}
+static int put_pi(mpfi_ptr to, mpfi_srcptr from) { return (void)from, mpfi_const_pi(to); }
+range range_pi(void) { return by(put_pi, range_of(0)); }
 
 /* Sines of wide or far ranges are anything from -1 to 1. */
-static range wave_of(unary *f, range x)
+static range wave_of(int f(mpfi_ptr, mpfi_srcptr), range x)
 {
     if (!(x.hi - x.lo < 6) || !(x.lo > -0x1p40) || !(x.hi < 0x1p40)) return (range){-1, 1};
     return by(f, x);
@@ -157,8 +173,8 @@ slope slope_quotient(const slope *x, const slope *y)
 slope slope_greatest(const slope *x, const slope *y)
 {
     const bool is_x = x->v.lo > y->v.hi, is_y = y->v.lo > x->v.hi;
-    const range part = {0, 1}, v = range_greatest(x->v, y->v), c = range_greatest(x->c, y->c);
-    return combined(x, y, v, c, is_x ? one : is_y ? zero : part, is_y ? one : is_x ? zero : part);
+    const range share = {0, 1}, v = range_greatest(x->v, y->v), c = range_greatest(x->c, y->c);
+    return combined(x, y, v, c, is_x ? one : is_y ? zero : share, is_y ? one : is_x ? zero : share);
 }
 
 /* A function with values v and c, by its derivative over x->v (mean value theorem). */
@@ -180,23 +196,14 @@ slope slope_abs(const slope *x)
     return r;
 }
 
-/* Sines and cosines, whose slopes are in f'(c) + f''(x) (x - c) / 2, too (Taylor's theorem). */
-static slope wave(const slope *x, range v, range c, range first, range first_c)
-{
-    const range half = range_mul(range_sub(x->v, x->c), range_of(0.5));
-    const range second = range_sub(first_c, range_mul(v, half)), both = range_both(first, second);
-    return composed(x, v, c, both.lo <= both.hi ? both : first, true);
-}
-
 slope slope_sin(const slope *x)
 {
-    return wave(x, range_sin(x->v), range_sin(x->c), range_cos(x->v), range_cos(x->c));
+    return composed(x, range_sin(x->v), range_sin(x->c), range_cos(x->v), true);
 }
 
 slope slope_cos(const slope *x)
 {
-    return wave(x, range_cos(x->v), range_cos(x->c), range_neg(range_sin(x->v)),
-                range_neg(range_sin(x->c)));
+    return composed(x, range_cos(x->v), range_cos(x->c), range_neg(range_sin(x->v)), true);
 }
 
 static slope whole_power(const slope *x, int k)

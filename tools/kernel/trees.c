@@ -2,20 +2,17 @@
  * SPDX-License-Identifier: Apache-2.0 */
 #include <config.h>
 
-#include "tools/kernel/trees.h"
+#include "tools/kernel/kernel.h"
 
 #include <stdlib.h>
-
-enum { DEPTH_MAX = 1000 };
 
 static bool refuse(tree *r, const cell *c)
 {
     char *const *bodies = r->w->of->bodies;
-    const range *u = c->uv[0], *v = c->uv[1], t = c->clocks[0];
-    const char *why = r->p.why != NULL ? r->p.why : "its axis does not part them";
+    const range *a = c->uv[0], *b = c->uv[1], t = c->clocks[0];
     return bytes_refuse(r->w->in, "'%.60s' u [%g, %g] and '%.60s' u [%g, %g], t [%g, %g]: %s",
-                        bodies[r->p.side[0]->body], u->lo, u->hi, bodies[r->p.side[1]->body], v->lo,
-                        v->hi, t.lo, t.hi, why);
+                        bodies[r->p.side[0]->body], a->lo, a->hi, bodies[r->p.side[1]->body], b->lo,
+                        b->hi, t.lo, t.hi, r->p.why ? r->p.why : "its axis does not part them");
 }
 
 /* The high byte comes first. */
@@ -23,18 +20,6 @@ static unsigned take_16(bytes *in)
 {
     const unsigned high = bytes_next(in);
     return high << 8 | bytes_next(in);
-}
-
-static bool take_leaf(tree *r, const cell *c, unsigned op)
-{
-    static const double none[3];
-    trees *w = r->w;
-    for (int i = 0; i < 3 && op == TREES_AXIS; ++i) r->axis[i] = (int16_t)take_16(w->in);
-    w->leaves += 1;
-    if (!bytes_are_good(w->in)) return false;
-    const bool holds = w->leaf != NULL ? w->leaf(w->context, r, c, op)
-                                       : leaf_holds(&r->p, c, op == TREES_ALONE ? none : r->axis);
-    return holds || refuse(r, c);
 }
 
 void trees_split(const pair *p, const cell *c, int side, size_t along, double at, cell half[2])
@@ -54,6 +39,37 @@ void trees_split(const pair *p, const cell *c, int side, size_t along, double at
     }
 }
 
+/* Bounds a side of a leaf, which a tree of its own divides. */
+static bool take_side(tree *r, const cell *c, int side, bool divided, bound *b, int depth)
+{
+    bytes *in = r->w->in;
+    cell half[2];
+    const unsigned along = divided ? (unsigned)bytes_count(in, TREES_WHOLE) : TREES_WHOLE;
+    if (along == TREES_WHOLE) return r->p.of->apart == 0 || leaf_visit(&r->p, c, side, leaf_add, b);
+    if (depth == TREES_DEPTH_MAX || (c->count[side] > 1 && along != 0))
+        return bytes_refuse(in, "a side is divided along v, or too often");
+    trees_split(&r->p, c, side, along, NAN, half);
+    return bytes_are_good(in) && take_side(r, &half[0], side, true, b, depth + 1) &&
+           take_side(r, &half[1], side, true, b, depth + 1);
+}
+
+static bool take_leaf(tree *r, const cell *c, unsigned op)
+{
+    trees *w = r->w;
+    bound b[2] = {{.some = false}, {.some = false}};
+    w->leaves += 1;
+    r->p.why = NULL;
+    for (int i = 0; i < 3; ++i) {
+        if (op == TREES_AXIS || op == TREES_SIDES) r->axis[i] = (int16_t)take_16(w->in);
+        b[0].n[i] = b[1].n[i] = op == TREES_ALONE ? 0 : r->axis[i];
+    }
+    if (!bytes_are_good(w->in)) return false;
+    if (w->leaf != NULL) return w->leaf(w->context, r, c, op) || refuse(r, c);
+    const bool divided = op == TREES_SIDES, seen = take_side(r, c, 0, divided, &b[0], 0) &&
+                                                   take_side(r, c, 1, divided, &b[1], 0);
+    return (seen && (w->of->apart == 0 || leaf_holds(&r->p, c, &b[0], &b[1]))) || refuse(r, c);
+}
+
 static bool take_entry(tree *r, const cell *c, int depth)
 {
     bytes *in = r->w->in;
@@ -62,9 +78,10 @@ static bool take_entry(tree *r, const cell *c, int depth)
     int side = (int)op / 2;
     size_t along = op % 2;
     double at = 0;
-    if (op > (r->w->of->clock_count > 1 ? TREES_CLOCK : TREES_ALONE) || depth > DEPTH_MAX)
+    const bool known = op <= TREES_SIDES && (op != TREES_CLOCK || r->w->of->clock_count > 1);
+    if (!known || depth > TREES_DEPTH_MAX)
         return bytes_refuse(in, "an entry is unknown, or the tree is too deep");
-    if (op >= TREES_AXIS && op <= TREES_ALONE) return take_leaf(r, c, op);
+    if (op >= TREES_AXIS && op != TREES_CLOCK) return take_leaf(r, c, op);
     if (op >= TREES_TIME) {
         side = 2;
         along = op == TREES_TIME ? r->main : bytes_count(in, r->w->of->clock_count - 1);
@@ -104,7 +121,8 @@ static bool take_pair(trees *w, size_t a, size_t b)
     w->pairs += 1;
     if (bytes_count(in, UINT32_MAX) != a || bytes_count(in, UINT32_MAX) != b)
         return bytes_refuse(in, "the tree of two surfaces is not here");
-    if (bytes_count(in, UINT32_MAX) != 0 && w->leaf == NULL)
+    r.without = bytes_count(in, UINT32_MAX);
+    if (r.without != 0 && w->leaf == NULL)
         return bytes_refuse(in, "maps are left out: impinge-verify --elaborate puts them back");
     if (w->of->clock_count > 1) r.main = bytes_count(in, w->of->clock_count - 1);
     for (size_t k = 0; k < w->of->clock_count; ++k) c.clocks[k] = w->of->clocks[k].all;
@@ -118,11 +136,21 @@ static bool take_pair(trees *w, size_t a, size_t b)
     return good;
 }
 
+bool claim_ignores(const claim *c, size_t a, size_t b)
+{
+    const size_t body = c->surfaces[a].body, other = c->surfaces[b].body;
+    bool ignored = body == other;
+    for (size_t k = 0; k < c->ignored_count; ++k)
+        for (int i = 0; i < 2; ++i)
+            ignored = ignored || (c->ignored[k][i] == body && c->ignored[k][1 - i] == other);
+    return ignored;
+}
+
 static bool points_hold(trees *w)
 {
     const point *at = w->of->points;
     pair p = {.of = w->of};
-    range x[2][3], length = range_of(0);
+    range x[2][3], apart[3];
     for (int k = 0; k < 2; ++k) {
         if (at[k].surface >= w->of->surface_count)
             return bytes_refuse(w->in, "a point is on no surface");
@@ -130,11 +158,12 @@ static bool points_hold(trees *w)
         if (at[k].piece >= w->of->stages[p.side[k]->stages[0]].count || !leaf_point(&p, k, x[k]))
             return bytes_refuse(w->in, "a point is outside of its surface, or has no value");
     }
-    if (claim_ignores(w->of, p.side[0]->body, p.side[1]->body))
+    if (claim_ignores(w->of, at[0].surface, at[1].surface))
         return bytes_refuse(w->in, "the points are of bodies that are not tested");
-    for (int i = 0; i < 3; ++i) length = range_hypot(length, range_sub(x[1][i], x[0][i]));
-    return length.hi <= w->of->within ||
-           bytes_refuse(w->in, "the points stated are %.9g apart", length.hi);
+    for (int i = 0; i < 3; ++i) apart[i] = range_sub(x[1][i], x[0][i]);
+    const range within = range_of(w->of->within), square = range_square(apart);
+    return (within.lo >= 0 && square.hi <= range_mul(within, within).lo) ||
+           bytes_refuse(w->in, "the points stated are %.9g apart", sqrt(square.hi));
 }
 
 /* The first surface behind those of the body of surface k, which stand together. */
@@ -145,23 +174,15 @@ static size_t behind(const claim *s, size_t k)
     return k;
 }
 
-static bool take_bodies(trees *w, size_t a, size_t b)
-{
-    const claim *s = w->of;
-    if (claim_ignores(s, s->surfaces[a].body, s->surfaces[b].body)) return true;
-    for (size_t i = a; i < behind(s, a); ++i)
-        for (size_t j = b; j < behind(s, b); ++j)
-            if (!take_pair(w, i, j)) return false;
-    return true;
-}
-
 bool trees_hold(trees *w)
 {
     const claim *s = w->of;
     if (s->has_points && !points_hold(w)) return false;
     for (size_t a = 0; a < s->surface_count; a = behind(s, a))
         for (size_t b = behind(s, a); b < s->surface_count; b = behind(s, b))
-            if (!take_bodies(w, a, b)) return false;
+            for (size_t i = a; i < behind(s, a) && !claim_ignores(s, a, b); ++i)
+                for (size_t j = b; j < behind(s, b); ++j)
+                    if (!take_pair(w, i, j)) return false;
     w->in->copy = NULL; /* of the checksum, which guards against accidents and is not compared */
     for (int k = 0; k < 32; ++k) bytes_next(w->in);
     return bytes_are_good(w->in) &&

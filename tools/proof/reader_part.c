@@ -14,7 +14,8 @@ static void define(reader *r, const char *word)
 {
     const bool is_variable = word[1] == '\0' && strchr(r->scope->variables, word[0]) != NULL;
     if (is_variable || reader_is_function(word) || reader_find_defined(r, word) != NULL ||
-        strspn(word, "0123456789_") > 0 || strcmp(word, "inf") == 0)
+        strspn(word, "0123456789_") > 0 || strcmp(word, "inf") == 0 || strcmp(word, "pi") == 0 ||
+        strcmp(word, "e") == 0)
         reader_fail(r, "'%s' cannot be defined: it %s", word,
                     is_variable ? "is a variable"
                                 : "has a meaning already, or begins with no letter");

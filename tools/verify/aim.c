@@ -235,6 +235,10 @@ void aim_take(pair *p, const cell *c, const int16_t *const known[2], aim *found)
         const int16_t *axis =
             known[0][0] != 0 || known[0][1] != 0 || known[0][2] != 0 ? known[0] : any;
         if (seen) memcpy(found->axes[found->count++], axis, sizeof any);
+        double between[3];
+        for (int i = 0; i < 3; ++i)
+            between[i] = 0.5 * (s[1].lo[i] + s[1].hi[i]) - 0.5 * (s[0].lo[i] + s[0].hi[i]);
+        if (!shorten(between, found->best)) memset(found->best, 0, sizeof found->best);
         found->cut = widest_range(p, c);
         return;
     }
@@ -243,5 +247,6 @@ void aim_take(pair *p, const cell *c, const int16_t *const known[2], aim *found)
     find_axes(&d, p->of->apart, known, found, best);
     if (found->count == 0 && (c->count[0] > 1 || c->count[1] > 1) && shorten(best, found->axes[0]))
         found->count = 1;
+    if (!shorten(best, found->best)) memset(found->best, 0, sizeof found->best);
     found->cut = choose(p, c, s, &d, best);
 }

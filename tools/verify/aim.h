@@ -3,7 +3,7 @@
 #ifndef TOOLS_VERIFY_AIM_H
 #define TOOLS_VERIFY_AIM_H
 
-#include "tools/kernel/trees.h"
+#include "tools/kernel/kernel.h"
 
 /* Axes that may part a cell, and how to divide it where they do not; guesses, in doubles */
 
@@ -19,6 +19,7 @@ enum { AIM_AXES = 2 };
 typedef struct aim {
     int16_t axes[AIM_AXES][3]; /* that are worth a test */
     int count;
+    int16_t best[3]; /* that leaves most between the sides; 0: not known */
     aim_cut cut;
 } aim;
 

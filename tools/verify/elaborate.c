@@ -9,10 +9,12 @@
 #include <string.h>
 
 #include "core/common/sha256.h"
-#include "tools/kernel/trees.h"
+#include "tools/kernel/kernel.h"
 #include "tools/verify/aim.h"
+#include "tools/verify/sides.h"
 
-enum { DEPTH_MAX = 120, HELD = 7 }; /* bytes of the longest leaf */
+enum { DEPTH_MAX = 120, HELD = 7, AXIS_SIZE = 3 * sizeof(int16_t) }; /* HELD: bytes of a leaf */
+enum { CREDIT = 512, CREDIT_A_CELL = 4, CREDIT_A_LEAF = 64 };
 
 typedef struct elaboration {
     FILE *to;
@@ -27,6 +29,8 @@ typedef struct elaboration {
     int16_t last[3];    /* its axis */
     unsigned long effort, cells; /* of a leaf */
     elaborated *found;
+    sides sides;
+    long credit; /* enclosures that may be in vain for sides that are divided */
 } elaboration;
 
 /* --- Writing ---------------------------------------------------------------------------------- */
@@ -72,6 +76,20 @@ static void put_leaf(elaboration *e, const int16_t axis[3])
     e->found->leaves += 1;
 }
 
+static void put_sides(elaboration *e, const int16_t axis[3])
+{
+    uint8_t entry[HELD] = {TREES_SIDES}, entries[SIDES_PARTS];
+    for (int i = 0; i < 3; ++i) {
+        entry[1 + 2 * i] = (uint8_t)((uint16_t)axis[i] >> 8);
+        entry[2 + 2 * i] = (uint8_t)axis[i];
+    }
+    put(e, entry, HELD);
+    for (int side = 0; side < 2; ++side) put(e, entries, sides_write(&e->sides, side, entries));
+    memcpy(e->last, axis, sizeof e->last);
+    e->leaf_tree = e->tree;
+    e->found->leaves += 1;
+}
+
 static void put_split(elaboration *e, const tree *r, const aim_cut *by)
 {
     const uint8_t side[1] = {(uint8_t)(2 * by->side + (int)by->along)};
@@ -89,14 +107,43 @@ static void put_split(elaboration *e, const tree *r, const aim_cut *by)
 
 static bool holds(elaboration *e, tree *r, const cell *c, const int16_t axis[3])
 {
-    const double n[3] = {axis[0], axis[1], axis[2]};
+    bound b[2] = {{.n = {axis[0], axis[1], axis[2]}}, {.n = {axis[0], axis[1], axis[2]}}};
     e->found->tests += 1;
-    return leaf_holds(&r->p, c, n);
+    for (int side = 0; side < 2; ++side)
+        if (!leaf_visit(&r->p, c, side, leaf_add, &b[side])) return false;
+    return leaf_holds(&r->p, c, &b[0], &b[1]);
 }
 
 static bool give_up(tree *r, const char *why)
 {
     r->p.why = why;
+    return false;
+}
+
+static bool is_among(const int16_t *const axes[3], int count, const int16_t axis[3])
+{
+    bool found = axis[0] == 0 && axis[1] == 0 && axis[2] == 0;
+    for (int k = 0; k < count; ++k) found = found || memcmp(axes[k], axis, AXIS_SIZE) == 0;
+    return found;
+}
+
+/* Writes a cell as a leaf whose sides are divided; false: changes by what the cell is to be divided
+ * instead. */
+static bool write_sides(elaboration *e, tree *r, const cell *c, const int16_t *const axes[3],
+                        aim_cut *cut)
+{
+    e->credit += CREDIT_A_CELL;
+    for (int k = 0; k < 3 && e->credit > 0; ++k) {
+        if (is_among(axes, k, axes[k])) continue;
+        const bool good = sides_find(&e->sides, &r->p, c, axes[k]);
+        e->found->tests += e->sides.tests;
+        e->credit += good ? CREDIT_A_LEAF : -(long)e->sides.tests;
+        if (good) {
+            put_sides(e, axes[k]);
+            return true;
+        }
+        if (e->sides.clock >= 0) *cut = (aim_cut){2, (size_t)e->sides.clock};
+    }
     return false;
 }
 
@@ -114,6 +161,8 @@ static bool write_cell(elaboration *e, tree *r, const cell *c, const int16_t hin
             put_leaf(e, found.axes[k]);
             return true;
         }
+    if (write_sides(e, r, c, (const int16_t *const[3]){hint, known[0], found.best}, &found.cut))
+        return true;
     if (found.cut.side < 0) return give_up(r, "it is too small to be divided");
     const size_t along = found.cut.along;
     const range all = c->clocks[found.cut.side == 2 ? along : 0];
@@ -127,10 +176,12 @@ static bool take_leaf(void *context, tree *r, const cell *c, unsigned op)
 {
     elaboration *e = context;
     int16_t hint[3] = {0, 0, 0};
+    if (op == TREES_SIDES) return bytes_refuse(e->w->in, "it has been elaborated already");
     const size_t size = op == TREES_AXIS ? HELD : 1;
     put_held(e, e->held_count - size);
     e->held_count = 0;
     e->cells = 0;
+    e->credit = CREDIT;
     for (int i = 0; i < 3 && op != TREES_ALONE; ++i) hint[i] = (int16_t)r->axis[i];
     return write_cell(e, r, c, hint, 0);
 }

@@ -76,9 +76,7 @@ char *input_line(input *in, size_t most)
             line[length] = '\0';
             return line;
         }
-        const bool is_high = length > 0 && line[length - 1] == '\xc2' && c < 0xa0; /* UTF-8 */
-        if (c < ' ' || c == 127 || is_high ||
-            length == most) { /* controls could change what is shown */
+        if (c < ' ' || c > '~' || length == most) { /* others could change what is shown */
             input_refuse(in, length == most ? "a line is too long" : "a line holds byte %u", c);
             break;
         }

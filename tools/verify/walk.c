@@ -65,14 +65,22 @@ static bool refuse(pair *p)
                         others, p->w->says->apart, q->why, found);
 }
 
+/* Passes over how the kernel divides a side: 2 ends a branch, others begin two. */
+static void skip_side(input *in)
+{
+    for (uint64_t open = 1; open > 0 && !input_is_refused(in);)
+        open = input_count(in, 2) < 2 ? open + 1 : open - 1;
+}
+
 static bool take_leaf(pair *p, const cell *c, unsigned op)
 {
     walk *w = p->w;
     prover *q = &p->prover;
-    if (op == WALK_AXIS) {
+    if (op == WALK_AXIS || op == WALK_SIDES) {
         for (int i = 0; i < 3; ++i) p->axis[i] = (int16_t)input_16(w->in);
         p->has_axis = true;
     }
+    for (int side = 0; side < 2 && op == WALK_SIDES; ++side) skip_side(w->in);
     if (op == WALK_SAME && !p->has_axis) return input_refuse(w->in, "a leaf before had no axis");
     if (w->text != NULL && op == WALK_ALONE) fprintf(w->text, "leaf\n");
     if (w->text != NULL && op != WALK_ALONE)
@@ -145,11 +153,11 @@ static bool take_entry(pair *p, const cell *c, int depth)
     cell half[2];
     entry e;
     const unsigned op = input_byte(in);
-    const unsigned last = p->w->says->clock_count > 1 ? WALK_CLOCK : WALK_ALONE;
-    if (op > last || depth > DEPTH_MAX)
-        return input_refuse(in, op > last ? "an entry is unknown" : "the tree is too deep");
+    const bool is_unknown = op > WALK_SIDES || (op == WALK_CLOCK && p->w->says->clock_count < 2);
+    if (is_unknown || depth > DEPTH_MAX)
+        return input_refuse(in, is_unknown ? "an entry is unknown" : "the tree is too deep");
     if (input_is_refused(in)) return false;
-    if (op > WALK_TIME && op < WALK_CLOCK) return take_leaf(p, c, op);
+    if (op > WALK_TIME && op != WALK_CLOCK) return take_leaf(p, c, op);
     if (!read_split(p, c, op, &e)) return false;
     say_split(p, c, &e.by);
     cell_split(&p->prover, c, &e.by, half);

@@ -8,7 +8,7 @@
 /* The trees of a certificate, read and proved leaf by leaf */
 
 /* Entries from 4 on (core/CERTIFICATE.md). */
-enum { WALK_TIME = 4, WALK_AXIS, WALK_SAME, WALK_ALONE, WALK_CLOCK };
+enum { WALK_TIME = 4, WALK_AXIS, WALK_SAME, WALK_ALONE, WALK_CLOCK, WALK_SIDES };
 
 /* Callbacks for the entries of a certificate's trees, in order. Trees of surfaces without formulas
  * are left out. */
