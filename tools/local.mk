@@ -331,6 +331,7 @@ tools_libverify_la_SOURCES = \
     tools/verify/elaborate.c tools/verify/elaborate.h \
     tools/verify/enclose.c tools/verify/enclose.h \
     tools/verify/input.c tools/verify/input.h \
+    tools/verify/jumps.c tools/verify/jumps.h \
     tools/verify/look.c tools/verify/look.h \
     tools/verify/motion.c tools/verify/motion.h \
     tools/verify/mpfi_functions.c \

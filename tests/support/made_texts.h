@@ -154,6 +154,19 @@ static inline certificate plates_made(void)
 
 /* Most of these are refused for how they are written, whatever they claim. The points of the
  * plates, and what follows: */
+#define PLATES                                                                                     \
+    "u; v; 1\nsurface 0 0\nbody b\nshape 1 plate\nu in [-9, 9]; v in [-9, 9]; u; v; -1\nsurface "  \
+    "1 1"
+#define A_UP                                                                                       \
+    "t in [0, 0.5]; u; v; 1 | u in [-9, 0]; v in [0, 1]; t in [0.5, 1]; u; v; 3\nsurface 0 0\n"    \
+    "body b\nshape 1 plate\nu in [-9, 9]; v in [-9, 9]; "
+#define B_AFTER(Z)                                                                                 \
+    "t in [0, 0.5]; u; v; -1 | u in [-9, 9]; v in [-9, 9]; t in [0.5, 1]; u; v; " Z "\nsurface 1 " \
+                                                                                    "1"
+#define MAPPED(A, B, BEFORE, AFTER)                                                                \
+    A "u; v; -1\nmap 1 step\nt in [-inf, " B "]; x; y; z " BEFORE " | t in [" B                    \
+      ", inf]; x; y; z " AFTER "\nsurface 1 1 2"
+#define A_FLAT "u; v; 1\nsurface 0 0\nbody b\nshape 1 plate\nu in [-9, 9]; v in [-9, 9]; "
 #define POINTS "within 3 at 0 0\npoint 0 0 0 0\npoint 1 0 0 0\nbody a\nshape 1 plate\nu in"
 static const claim_change plates_claims[] = {
     {"apart 1\n", "apart 1\n", true},
@@ -167,6 +180,16 @@ static const claim_change plates_claims[] = {
     {"plate\n", "plate clokc 1\n", false},
     {"plate\n", "plate clock 1 1\n", false},
     {"0 0 0 0\n", "0 0 0 0 0\n", false},
+    /* surfaces that jump at one time, at which each of their parts counts */
+    {PLATES, A_UP "u; v; -1\nsurface 1 1", true},
+    {PLATES, A_UP B_AFTER("-3"), true},
+    {PLATES, A_UP B_AFTER("0.9"), false},
+    {PLATES, MAPPED(A_UP, "0.5", "", "- 2"), true},
+    {PLATES, MAPPED(A_UP, "0.5", "", "+ 1.9"), false},
+    {PLATES, MAPPED(A_FLAT, "1", "", "- 2"), true},
+    {PLATES, MAPPED(A_FLAT, "1", "", "+ 1.9"), false},
+    {PLATES, MAPPED(A_FLAT, "0", "- 0.5", ""), true},
+    {PLATES, MAPPED(A_FLAT, "0", "+ 1.9", ""), false},
     /* nothing is nearer than 0 */
     {"apart 1\n", "apart 0\n", false},
     {"apart 1\n", "apart 1e-400\n", false},

@@ -216,6 +216,40 @@ static apart_outcome test(prover *p, const cell *c, cut *by)
 
 /* --- Dividing --------------------------------------------------------------------------------- */
 
+static bool prove(prover *p, const cell *c, int depth);
+
+/* Proves the part of a cell at one time, or at one value of another clock. */
+static bool prove_at(prover *p, const cell *c, size_t clock, double at, int depth)
+{
+    cell there = *c;
+    if (clock == p->when.main) {
+        there.t[0] = there.t[1] = at;
+        return prove(p, &there, depth);
+    }
+    const values was = p->when;
+    p->when.lo[clock] = p->when.hi[clock] = at;
+    p->when.stamp = ++*p->stamps;
+    const bool proved = prove(p, c, depth);
+    p->when = was;
+    return proved;
+}
+
+/* Proves a cell that is proved at values where it ends, and both surfaces may jump (jumps.h). All
+ * parts that meet there are enclosed. Where a cell begins, another one ends, but for the first. */
+static bool prove_ends(prover *p, const cell *c, int depth)
+{
+    bool proved = true;
+    for (size_t k = 0; k < p->when.count && proved; ++k) {
+        const bool is_main = k == p->when.main;
+        const double lo = is_main ? c->t[0] : p->when.lo[k], hi = is_main ? c->t[1] : p->when.hi[k];
+        if (!(lo < hi)) continue;
+        if (jumps_has(p->jumps, k, hi)) proved = prove_at(p, c, k, hi, depth + 1);
+        if (proved && lo == p->side[0].of->clocks[k].lo && jumps_has(p->jumps, k, lo))
+            proved = prove_at(p, c, k, lo, depth + 1);
+    }
+    return proved;
+}
+
 static bool prove(prover *p, const cell *c, int depth)
 {
     cut by;
@@ -223,7 +257,7 @@ static bool prove(prover *p, const cell *c, int depth)
     if (++p->tests > p->tests_most || depth > DEPTH_MAX)
         return apart_fail(p, c, INFINITY, "it is not proved within the effort allowed"), false;
     const apart_outcome o = test(p, c, &by);
-    if (o != DIVIDE) return o == APART;
+    if (o != DIVIDE) return o == APART && prove_ends(p, c, depth);
     if (!cell_split(p, c, &by, half))
         return apart_fail(p, c, INFINITY, "it is too small to be divided"), false;
     bool proved = true;

@@ -3,6 +3,7 @@
 #ifndef TOOLS_VERIFY_APART_H
 #define TOOLS_VERIFY_APART_H
 
+#include "tools/verify/jumps.h"
 #include "tools/verify/round.h"
 
 /* Cells in which two surfaces are proved to be apart */
@@ -37,9 +38,10 @@ typedef struct prover {
     unsigned long tests, tests_most; /* of this leaf */
     double axis[3];                  /* hint; 0: none */
     memory *known;
-    areas areas[2];    /* of either side; to be freed */
-    kept_side kept[2]; /* what they are of */
-    centre centres[2]; /* of either side, as guessed in this leaf or before */
+    const jumps *jumps; /* values at which cells end that are proved by themselves, too */
+    areas areas[2];     /* of either side; to be freed */
+    kept_side kept[2];  /* what they are of */
+    centre centres[2];  /* of either side, as guessed in this leaf or before */
     int centre_count;
     size_t wasted;    /* boxes of centres, since one of them parted a cell */
     bool has_guessed; /* in this leaf */

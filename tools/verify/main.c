@@ -186,9 +186,13 @@ static int finish(const request *asked, const outcome *before)
     const bool good = r->is_ended && (r->is_coq || prove_draft(asked, &after));
     if (!rewrite_finish(r, good) || !good) return USAGE;
     if (!asked->quiet && r->is_coq)
-        printf("goals: %llu of the %llu leaves that Coq can be told, of %llu\n",
+        printf("goals: %llu of the %llu leaves that Coq can be told, of %llu%s\n",
                (unsigned long long)r->leaves, (unsigned long long)r->known,
-               (unsigned long long)before->leaves);
+               (unsigned long long)before->leaves,
+               r->known == before->leaves
+                   ? ""
+                   : "; of others no axis is known, or formulas are long, or have functions that "
+                     "the tactic interval lacks, such as powers that are not whole");
     if (!asked->quiet && !r->is_coq)
         printf("tightened: %llu leaves to %llu, %llu tests to %llu, %llu bytes to %ld\n",
                (unsigned long long)before->leaves, (unsigned long long)after.leaves,

@@ -296,6 +296,10 @@ static bool take_pair(walk *w, size_t a, size_t b, const work *room)
         return input_refuse(
             w->in, "one surface ends and another begins at %.17g, which is not proved", at);
     bool good = leave_out(&p, input_count(w->in, UINT32_MAX)) && begin_values(&p, &c);
+    jumps both = {.at = {NULL}};
+    if (good && p.is_said && !jumps_find(p.prover.side, &both))
+        good = input_refuse(w->in, "memory ran out");
+    p.prover.jumps = &both;
     for (int side = 0; side < 2 && good; ++side) {
         good = read_order(&p, side, c.count[side]);
         p.prover.order[side] = p.order[side];
@@ -306,6 +310,7 @@ static bool take_pair(walk *w, size_t a, size_t b, const work *room)
         free(p.order[side]);
         free(p.prover.areas[side].at);
     }
+    jumps_free(&both);
     return good;
 }
 
