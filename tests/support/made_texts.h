@@ -162,7 +162,7 @@ static inline certificate plates_made(void)
     "body b\nshape 1 plate\nu in [-9, 9]; v in [-9, 9]; "
 #define B_AFTER(Z)                                                                                 \
     "t in [0, 0.5]; u; v; -1 | u in [-9, 9]; v in [-9, 9]; t in [0.5, 1]; u; v; " Z "\nsurface 1 " \
-                                                                                    "1"
+    "1"
 #define MAPPED(A, B, BEFORE, AFTER)                                                                \
     A "u; v; -1\nmap 1 step\nt in [-inf, " B "]; x; y; z " BEFORE " | t in [" B                    \
       ", inf]; x; y; z " AFTER "\nsurface 1 1 2"

@@ -200,7 +200,7 @@ typedef struct pair {
 typedef void leaf_visitor(void *context, const slope x[3], bool whole);
 bool leaf_visit(pair *p, const cell *c, int side, leaf_visitor *visit, void *context);
 
-/* Of points of a side: n.x is in `all`, and in p + sum_k s_k o_k, o_k being how far clock k is from
+/* A side's points: n.x is in `all`, and in p + sum_k s_k o_k, o_k being how far clock k is from
  * its middle. */
 typedef struct bound {
     double n[3];
