@@ -77,6 +77,7 @@ core_tree = \
     core/tree/vec.h
 
 core_plugin = \
+    core/plugin/array_file.c core/plugin/array_file.h \
     core/plugin/channel.h \
     core/plugin/elf_dynamic.c core/plugin/elf_dynamic.h \
     core/plugin/elf_file.c core/plugin/elf_file.h \

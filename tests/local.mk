@@ -20,6 +20,7 @@ check_suites = \
     tests/unit/test_alloc_failure \
     tests/unit/test_api \
     tests/unit/test_arena \
+    tests/unit/test_array_files \
     tests/unit/test_union_find \
     tests/unit/test_callers_mode \
     tests/unit/test_clearance \

@@ -87,6 +87,18 @@ imp_code parameters_read_absent(const imp_parameter *row, const place *at, param
     return parameters_read_value(row, json, &member, value, error);
 }
 
+/* Puts the folder in front of a relative name of a file. NULL: no memory. */
+static json_t *name_in_folder(const char *folder, const char *name)
+{
+    if (folder == NULL || name[0] == '/' || name[0] == '\0') return json_string_nocheck(name);
+    char *path = malloc(strlen(folder) + strlen(name) + 1);
+    if (path == NULL) return NULL;
+    strcat(strcpy(path, folder), name);
+    json_t *whole = json_string_nocheck(path); /* folders need not be UTF-8 */
+    free(path);
+    return whole;
+}
+
 /* A relative name of a file, made whole; anything else as it is. */
 static imp_code whole_name(const imp_parameter *row, const char *folder, parameter_values *values,
                            const json_t **json, imp_error *error)
@@ -94,19 +106,33 @@ static imp_code whole_name(const imp_parameter *row, const char *folder, paramet
     const char *name = json_string_value(*json);
     if ((row->flags & IMP_PARAMETER_FILE) == 0 || folder == NULL || name == NULL)
         return IMP_SUCCESS;
-    if (name[0] == '/' || name[0] == '\0') return IMP_SUCCESS;
-    char *path = malloc(strlen(folder) + strlen(name) + 1);
-    if (path == NULL) return error_set_memory(error);
-    strcat(strcpy(path, folder), name);
-    json_t *whole = json_string_nocheck(path); /* folders need not be UTF-8 */
-    free(path);
+    json_t *whole = name_in_folder(folder, name);
     if (parameters_keep(values, whole, NULL) != IMP_SUCCESS) return error_set_memory(error);
     *json = whole;
     return IMP_SUCCESS;
 }
 
+/* Reads the value of a row from the array file that the object names. */
+static imp_code read_array_file(const imp_parameter *row, const json_t *json, const char *folder,
+                                const array_file_limit *limit, const place *at,
+                                parameter_values *values, imp_value *value, imp_error *error)
+{
+    uint64_t bytes = 0;
+    const char *name = array_file_name(json, at, error);
+    if (name == NULL) return IMP_ERROR_SCENE;
+    json_t *path = name_in_folder(folder, name);
+    if (values->files == NULL) values->files = json_array();
+    if (path == NULL || json_array_append_new(values->files, path) != 0)
+        return error_set_memory(error);
+    const imp_code code =
+        array_file_read(row, json_string_value(path), limit, at, value, &bytes, error);
+    values->file_bytes += bytes;
+    return code;
+}
+
 static imp_code read_all(const parameter_table *table, const json_t *object, const char *folder,
-                         const place *at, parameter_values *values, imp_error *error)
+                         const array_file_limit *limit, const place *at, parameter_values *values,
+                         imp_error *error)
 {
     imp_code code = IMP_SUCCESS;
     for (size_t i = 0; i < table->count && code == IMP_SUCCESS; ++i) {
@@ -116,21 +142,26 @@ static imp_code read_all(const parameter_table *table, const json_t *object, con
         place member = place_key(at, row->name);
         code = whole_name(row, folder, values, &json, error);
         if (code != IMP_SUCCESS) return code;
-        code = json != NULL ? parameters_read_value(row, json, &member, &values->value[i], error)
-                            : parameters_read_absent(row, at, values, &values->value[i], error);
+        if (json != NULL && array_file_is_asked(row, json))
+            code = read_array_file(row, json, folder, limit, &member, values, &values->value[i],
+                                   error);
+        else
+            code = json != NULL
+                       ? parameters_read_value(row, json, &member, &values->value[i], error)
+                       : parameters_read_absent(row, at, values, &values->value[i], error);
     }
     return code;
 }
 
 imp_code parameters_read(const parameter_table *table, const char *type, const json_t *object,
-                         const char *folder, const place *at, parameter_values *values,
-                         imp_error *error)
+                         const char *folder, const array_file_limit *limit, const place *at,
+                         parameter_values *values, imp_error *error)
 {
     assert(json_is_object(object));
     imp_code code = refuse_unknown(table, type, object, at, error);
     if (code != IMP_SUCCESS) return code;
     code = parameters_begin(values, table->count, 0, NULL, error);
-    if (code == IMP_SUCCESS) code = read_all(table, object, folder, at, values, error);
+    if (code == IMP_SUCCESS) code = read_all(table, object, folder, limit, at, values, error);
     if (code != IMP_SUCCESS) parameters_clear(values);
     return code;
 }
@@ -167,6 +198,7 @@ void parameters_clear(parameter_values *values)
     }
     arena_store_free_room(values->store, values->value);
     json_decref(values->made);
+    json_decref(values->files);
     *values = (parameter_values){.count = 0};
 }
 

@@ -7,6 +7,7 @@
 
 #include "core/base/arena_store.h"
 #include "core/base/place.h"
+#include "core/plugin/array_file.h"
 #include "core/plugin/parameter_table.h"
 
 /* From a JSON object to the values a type is created from
@@ -29,19 +30,21 @@ typedef struct parameter_values {
     imp_value *value;
     bool *given; /* of each row: the object has it */
     size_t count;
-    bool borrows;       /* the numbers that were given are the caller's */
-    double *room;       /* numbers of defaults, in the memory of `value`; NULL: none are there */
-    size_t room_left;   /* numbers that still fit there */
-    arena_store *store; /* of that memory */
+    bool borrows;        /* the numbers that were given are the caller's */
+    double *room;        /* numbers of defaults, in the memory of `value`; NULL: none are there */
+    size_t room_left;    /* numbers that still fit there */
+    arena_store *store;  /* of that memory */
+    json_t *files;       /* paths of array files that were read; NULL: none */
+    uint64_t file_bytes; /* of these */
     json_t *made; /* JSON that is not in the object: presets, names of files made whole; or NULL */
 } parameter_values;
 
 /* Reads the parameters of the type called `type` from `object`, which is at `at`. Relative names of
- * files (IMP_PARAMETER_FILE) begin at `folder`, which ends in '/', or if it is NULL where the
- * process does. On failure there is nothing to clear. */
+ * files (IMP_PARAMETER_FILE, array_file.h) begin at `folder`, which ends in '/', or if it is NULL
+ * where the process does. On failure there is nothing to clear. */
 imp_code parameters_read(const parameter_table *table, const char *type, const json_t *object,
-                         const char *folder, const place *at, parameter_values *values,
-                         imp_error *error);
+                         const char *folder, const array_file_limit *limit, const place *at,
+                         parameter_values *values, imp_error *error);
 
 void parameters_clear(parameter_values *values);
 

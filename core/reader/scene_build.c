@@ -283,14 +283,18 @@ static imp_code find_type(const imp_registry *registry, imp_type_kind kind, cons
     return take_type(registry, kind, m, error);
 }
 
+static bool allows(void *budget, uint64_t bytes) { return reading_budget_allows(budget, bytes); }
+
 imp_code scene_making_begin(scene_making *m, const scene_source *source, imp_type_kind kind,
                             const json_t *object, const place *at, imp_error *error)
 {
     *m = (scene_making){.budget = source->budget};
     imp_code code = find_type(source->registry, kind, object, at, m, error);
     if (code != IMP_SUCCESS) return code;
-    code = parameters_read(&m->view.table, m->view.name, object, source->folder, at, &m->values,
-                           error);
+    const array_file_limit limit = {allows, m->budget};
+    code = parameters_read(&m->view.table, m->view.name, object, source->folder, &limit, at,
+                           &m->values, error);
+    if (code == IMP_ERROR_LIMIT) code = reading_budget_refuse(m->budget, at, error);
     if (code != IMP_SUCCESS) isolate_destroy(m->stand_in);
     return code;
 }
@@ -313,7 +317,7 @@ imp_code scene_making_create(scene_making *m, const place *at, scene_build_note 
                              imp_error *error)
 {
     imp_code code;
-    const uint64_t of_files = bytes_of_files(&m->view.table, &m->values);
+    const uint64_t of_files = bytes_of_files(&m->view.table, &m->values) + m->values.file_bytes;
     if (!reading_budget_allows(m->budget, of_files))
         code = reading_budget_refuse(m->budget, at, error);
     else if (note == NULL || !m->view.has_formula ||

@@ -81,7 +81,7 @@ instance instance_make(const imp_registry *registry, const char *type, const cha
     made.json = json_loads(made.text, PARAMETERS_JSON_FLAGS, NULL);
     ck_assert_msg(made.json != NULL, "%s: not JSON: %s", type, made.text);
     imp_code code =
-        parameters_read(&made.view.table, type, made.json, NULL, &at, &made.values, &error);
+        parameters_read(&made.view.table, type, made.json, NULL, NULL, &at, &made.values, &error);
     ck_assert_msg(code == IMP_SUCCESS, "%s %s: %s", type, made.text, error.text);
     imp_status status = made.view.create(made.values.value, &made.self, &why);
     ck_assert_msg(status == IMP_STATUS_OK, "%s %s: %s", type, made.text, why.text);

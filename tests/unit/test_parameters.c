@@ -55,7 +55,7 @@ static imp_code read_one(const imp_parameter *row, const char *text, parameter_v
     parameter_table table = {row, 1, sizeof *row};
     place at = place_document("s");
     error = (imp_error){IMP_SUCCESS, ""};
-    return parameters_read(&table, "thing", *object, "/scenes/", &at, values, &error);
+    return parameters_read(&table, "thing", *object, "/scenes/", NULL, &at, values, &error);
 }
 
 static void assert_refused(const imp_parameter *row, const char *text, const char *message)
