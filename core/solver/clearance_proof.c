@@ -5,6 +5,7 @@
 #include "core/solver/clearance_internal.h"
 
 #include "core/base/status.h"
+#include "core/solver/query_proof.h"
 
 /* What the certificate of a clearance states. */
 
@@ -18,10 +19,6 @@ imp_code clearance_keep_proof(clearance_search *c, proof_logs *logs, imp_error *
     return IMP_SUCCESS;
 }
 
-/* The verifier is given room by what it is asked to prove: a part of the bracket, unless a
- * requirement is kept, for which the search had room. */
-enum { PART_OF_BRACKET = 16 };
-
 clearance_proved clearance_what_is_proved(const clearance_search *c)
 {
     const imp_clearance *answer = &c->answers[0];
@@ -32,11 +29,6 @@ clearance_proved clearance_what_is_proved(const clearance_search *c)
         proved.apart = fails && !(proved.to > proved.from) ? 0 : clearance_relaxed(c);
         return proved;
     }
-    const double room =
-        answer->has_witness ? answer->upper - answer->lower : 0.0625 * answer->lower;
-    proved.apart = answer->lower - room / PART_OF_BRACKET;
-    if (answer->verdict == IMP_REQUIREMENT_HOLDS && proved.apart < clearance_relaxed(c))
-        proved.apart = clearance_relaxed(c);
-    if (!(proved.apart > 0)) proved.apart = 0;
+    proved.apart = proof_apart_lower(answer, &c->asked);
     return proved;
 }

@@ -7,6 +7,7 @@
 
 #include "core/base/fp_mode.h"
 #include "core/base/status.h"
+#include "core/scene/tolerances.h"
 #include "core/solver/query_internal.h"
 #include "core/solver/query_proof.h"
 
@@ -104,6 +105,24 @@ double proof_within_upper(const imp_clearance *answer)
     double size = answer->upper;
     for (int i = 0; i < 3; ++i) size += fabs(answer->a.point[i]) + fabs(answer->b.point[i]);
     return answer->upper + WITHIN_ROUNDING * size;
+}
+
+/* A bracket may be far narrower than what was asked for. Then a claim of its lower end can be too
+ * tight for the verifier, which encloses by other means; so it has room as though the bracket were
+ * as wide as the tolerance. A requirement that is kept is claimed in any case: the search for it
+ * had room. */
+enum { PART_OF_BRACKET = 16 };
+
+double proof_apart_lower(const imp_clearance *answer, const imp_clearance_options *asked)
+{
+    const double width = answer->upper - answer->lower, least = asked->tolerance * answer->upper;
+    const double room = !answer->has_witness ? 0.0625 * answer->lower
+                        : width > least      ? width
+                                             : least;
+    const double claimed = answer->lower - room / PART_OF_BRACKET;
+    const double kept =
+        answer->verdict == IMP_REQUIREMENT_HOLDS ? tolerances_nearly(asked->required) : 0;
+    return claimed > kept ? claimed : kept;
 }
 
 static imp_code claim_of_clearance(const imp_query *query, proof_claim *claim, imp_error *error)

@@ -18,4 +18,8 @@ void proof_claim_points(proof_claim *claim, const imp_side *a, const imp_side *b
 /* Returns the answer's upper end, with room for how the verifier rounds the points. */
 double proof_within_upper(const imp_clearance *answer);
 
+/* Returns the distance to claim: the answer's lower end, less some room for how the verifier
+ * encloses surfaces. */
+double proof_apart_lower(const imp_clearance *answer, const imp_clearance_options *asked);
+
 #endif

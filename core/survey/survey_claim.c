@@ -36,24 +36,17 @@ static proof_claim claim_of_contact(const imp_survey *s)
     return claim;
 }
 
-/* Room for the verifier, as of a query (clearance_proof.c). */
-enum { PART_OF_BRACKET = 16 };
-
 static imp_code claim_of_distance(const imp_survey *s, proof_claim *claim, imp_error *error)
 {
     imp_clearance c = {.struct_size = (uint32_t)sizeof c};
     const imp_code code = imp_survey_get_clearance(s, &c, error);
     if (code != IMP_SUCCESS) return code;
-    const double room = c.has_witness ? c.upper - c.lower : 0.0625 * c.lower;
-    const double kept = tolerances_nearly(s->question.clearance.required);
     *claim = (proof_claim){.verdict = c.verdict == IMP_REQUIREMENT_HOLDS      ? "holds"
                                       : c.verdict == IMP_REQUIREMENT_VIOLATED ? "violated"
                                                                               : "distance",
-                           .apart = c.lower - room / PART_OF_BRACKET,
+                           .apart = proof_apart_lower(&c, &s->question.clearance),
                            .from = s->question.options.t_start,
                            .to = s->question.options.t_end};
-    if (c.verdict == IMP_REQUIREMENT_HOLDS && claim->apart < kept) claim->apart = kept;
-    if (!(claim->apart > 0)) claim->apart = 0;
     if (c.has_witness) proof_claim_points(claim, &c.a, &c.b, c.t, proof_within_upper(&c));
     return IMP_SUCCESS;
 }

@@ -42,6 +42,21 @@ END
     [[ ${lines[1]} == "holds: no two points nearer than 0.149"* ]]
 }
 
+@test "a distance whose bracket is nearly exact leaves room for the verifier" {
+    cat >ring.json <<'END'
+{"gamma": 1e-6, "parameters": {"c": [1, 1]}, "bodies": [
+{"name": "ball", "surfaces": [{"type": "sphere"}]},
+{"name": "ring", "surfaces": [{"type": "torus", "major_radius": 1, "minor_radius": 0.3}],
+"maps": [{"type": "translate", "velocity": [0,0,0.5]}, {"type": "rotate", "axis": [1,0,0], "rate": 1},
+{"type": "translate", "velocity": [3,0,0], "clock": "c"}]}]}
+END
+    run -0 "$IMPINGE" clearance ring.json --proof ring.proof --json
+    json '.upper - .lower < 1e-12'
+    run -0 verify ring.proof
+    [ "${lines[0]}" = holds ]
+    [[ ${lines[1]} == "distance: no two points nearer than 0.69"* ]]
+}
+
 @test "a contact in time holds with its values, and two points that violate" {
     arms 3.2 ',[-1,0,0]' >arms.json
     run -0 "$IMPINGE" solve arms.json --gamma 0.1 --proof contact.proof --json
