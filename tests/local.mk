@@ -95,6 +95,7 @@ check_suites = \
     tests/unit/test_scene_file \
     tests/unit/test_scene_judge \
     tests/unit/test_separation \
+    tests/unit/test_dividing_surface \
     tests/unit/test_normal_field \
     tests/unit/test_separation_distance \
     tests/unit/test_strategy \

@@ -15,7 +15,7 @@ typedef struct gap_line {
     double low, drift; /* the distance at w is at least low + drift w; length, w in [-1, 1] */
 } gap_line;
 
-enum { GAP_LINES = 10 }; /* 0, both sides of four axes, a field of normals */
+enum { GAP_LINES = 11 }; /* 0, both sides of four axes, a field of normals, a dividing surface */
 
 typedef struct gap_lines {
     gap_line line[GAP_LINES];

@@ -4,8 +4,9 @@
 
 #include "core/bounds/normal_field.h"
 
-#include "core/bounds/normal_turn.h"
-#include "core/bounds/quadratic.h"
+#include "core/bounds/dividing_surface.h"
+#include "core/bounds/normal_height.h"
+#include "core/bounds/tuning.h"
 
 /* Returns m_q.x_l + m_l.x_q for two terms x of one surface. */
 static double both_ways(const local_slice *s, const turn *m, int q, int l)
@@ -82,39 +83,6 @@ static double tangential_rest(const local_slice *s, int i)
 {
     double sum = 0;
     for (int j = 0; j < SECONDS; ++j) sum += fabs(s->q[j].t[i]);
-    return sum;
-}
-
-static double weighted(vec3 n, const double *x)
-{
-    return fabs(n.x[0]) * x[0] + fabs(n.x[1]) * x[1] + fabs(n.x[2]) * x[2];
-}
-
-IMP_QUAD_INLINE imp_quad along_edges(const double edge[3][4], vec3 n)
-{
-    return imp_quad_all(n.x[0]) * imp_quad_load(edge[0]) +
-           imp_quad_all(n.x[1]) * imp_quad_load(edge[1]) +
-           imp_quad_all(n.x[2]) * imp_quad_load(edge[2]);
-}
-
-/* Bounds, along n, the edges of both remainders. */
-static double edges_upper(const difference *r, vec3 n)
-{
-    imp_quad sum = imp_quad_all(0);
-    for (int k = 0; k < r->posed; ++k)
-        sum += imp_quad_abs(along_edges(r->edge[k], n)) + imp_quad_abs(along_edges(r->swing[k], n));
-    return sum[0] + sum[1] + sum[2];
-}
-
-/* Bounds, along n, how far the terms of second order of both slices change within the window. */
-static double bending_upper(const difference *r, vec3 n)
-{
-    double sum = 0;
-    const slice *both[2] = {&r->a, &r->b};
-    for (int k = 0; k < 2 && r->posed > 0; ++k)
-        sum += fabs(vec3_dot(n, vec3_from(both[k]->uuw))) +
-               fabs(vec3_dot(n, vec3_from(both[k]->uvw))) +
-               fabs(vec3_dot(n, vec3_from(both[k]->vvw)));
     return sum;
 }
 
@@ -202,13 +170,6 @@ static bool slack_and_length(const difference *r, const frame *f, const local_sl
     return true;
 }
 
-/* n.D without the slack: offset + drift w + bend w^2, and the parts of A and B at the start of the
- * window and at its end. */
-typedef struct height {
-    double offset, drift, bend;
-    quadratics parts;
-} height;
-
 /* Computes n.D along the field, or along -n if B lies on that side at the focus. */
 static height height_of(const difference *r, const local_slice *a, const local_slice *b,
                         const turns *m, const path *x)
@@ -222,39 +183,7 @@ static height height_of(const difference *r, const local_slice *a, const local_s
         take_part(a, &m->a, m->w, x, 2 * end - 1, -1, 2 * end, &h.parts);
         take_part(b, &m->b, m->w, x, 2 * end - 1, 1, 2 * end + 1, &h.parts);
     }
-    if (!(h.offset + (h.drift + h.bend * r->focus) * r->focus < 0)) return h;
-    const quadratics *p = &h.parts;
-    return (height){-h.offset, -h.drift, -h.bend, {-p->bs, -p->br, -p->qss, -p->qsr, -p->qrr}};
-}
-
-IMP_QUAD_INLINE void quadratics_least(const quadratics *p, double least[IMP_QUAD])
-{
-    imp_quad_store(least, quadratics_lower(p));
-}
-
-IMP_QUAD_WIDE static void quadratics_least_wide(const quadratics *p, double least[IMP_QUAD])
-{
-    quadratics_least(p, least);
-}
-
-static void least_values(const quadratics *p, double least[IMP_QUAD])
-{
-    if (imp_quad_is_wide())
-        quadratics_least_wide(p, least);
-    else
-        quadratics_least(p, least);
-}
-
-/* Both slices and the path of the difference in the frame. */
-typedef struct view {
-    local_slice a, b;
-    path x;
-} view;
-
-static view view_in(const frame *f, const difference *r)
-{
-    return (view){normal_slice_to_local(f, &r->a, r->posed > 0),
-                  normal_slice_to_local(f, &r->b, r->posed > 0), normal_path_to_local(f, r)};
+    return height_towards(&h, r->focus);
 }
 
 /* Tilts the frame's normal; the tangents remain, though they are no longer perpendicular to it.
@@ -272,26 +201,22 @@ bool normal_field_cut(const difference *r, vec3 axis, double gamma_clear, w_rang
     frame f;
     turns m;
     if (!normal_frame_between(r, axis, &f)) return true;
-    view v = view_in(&f, r);
+    local_view v = view_in(&f, r);
     if (!normal_turns_choose(&f, &v.a, &v.b, &v.x, &m)) return true;
     if (m.tilt[0] != 0 || m.tilt[1] != 0) {
         if (!tilt_frame(&f, m.tilt)) return true;
         v = view_in(&f, r);
     }
     const height h = height_of(r, &v.a, &v.b, &m, &v.x);
-    const imp_quad seen = imp_quad_min(quadratics_corner(&h.parts), imp_quad_all(0));
-    if (h.offset - h.drift + (seen[0] + seen[1]) <= 0 &&
-        h.offset + h.drift + (seen[2] + seen[3]) <= 0)
-        return true; /* nothing can be cut, even without slack */
-    double least[IMP_QUAD];
-    least_values(&h.parts, least);
-    const double start = least[0] + least[1], end = least[2] + least[3];
-    const double middle = h.offset + 0.5 * (start + end) + (h.bend < 0 ? h.bend : 0);
-    const double drift = h.drift + 0.5 * (end - start);
-    if (lines == NULL && middle + fabs(drift) <= 0) return true; /* nothing can be cut */
+    height_line line;
+    if (!height_least(&h, lines != NULL, &line)) return true;
     double slack, length;
     if (!slack_and_length(r, &f, &v.a, &v.b, &m, &v.x, &slack, &length)) return true;
-    const double low = middle - slack;
-    if (lines != NULL) gap_lines_add(lines, low, drift, length);
-    return w_range_cut(s, low, drift, length * gamma_clear);
+    const double low = line.middle - slack, limit = length * gamma_clear;
+    if (lines != NULL) gap_lines_add(lines, low, line.drift, length);
+    if (!w_range_cut(s, low, line.drift, limit)) return false;
+    const double third = cubic_upper(&v.a, &m.a) + cubic_upper(&v.b, &m.b);
+    const bool is_hidden = line.middle + fabs(line.drift) > limit;
+    if (!(is_hidden && TUNING_THIRD_SHARE * third > slack)) return true;
+    return dividing_surface_cut(r, &f, &v, &m, gamma_clear, s, lines);
 }

@@ -88,11 +88,6 @@ bool normal_frame_between(const difference *r, vec3 axis, frame *f)
 
 /* --- How it turns ----------------------------------------------------------------------------- */
 
-/* A symmetric 2 x 2 matrix. */
-typedef struct form {
-    double xx, xy, yy;
-} form;
-
 /* Chooses K with y' K y / 2 = n.(quadratic part), y = (tangential slopes) s. False: the slopes are
  * too nearly parallel. Nothing is proved by the choice. */
 static bool curvature(const local_slice *s, form *k)
@@ -175,6 +170,7 @@ static bool turns_along(const frame *f, const local_slice *a, const local_slice 
     const double sign = f->side[0] == TOUCH_FACE ? 1 : -1;
     form k;
     if (!curvature(&s, &k)) return false;
+    m->k = k;
     turn_choose(&k, a, &m->a);
     turn_choose(&k, b, &m->b);
     turn_in_time(&s, m->w);
@@ -197,6 +193,7 @@ bool normal_turns_choose(const frame *f, const local_slice *a, const local_slice
     if (!curvature(a, &ka) || !curvature(b, &kb)) return false;
     const form mean = {0.5 * (ka.xx + kb.xx), 0.5 * (ka.xy + kb.xy), 0.5 * (ka.yy + kb.yy)};
     double wa[2], wb[2];
+    m->k = mean;
     turn_choose(&mean, a, &m->a);
     turn_choose(&mean, b, &m->b);
     turn_in_time(a, wa);

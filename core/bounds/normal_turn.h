@@ -69,6 +69,18 @@ static inline path normal_path_to_local(const frame *f, const difference *r)
     return (path){to_local(f, r->delta), to_local(f, r->drift), to_local(f, r->bend)};
 }
 
+/* Both slices and the path of the difference in the frame. */
+typedef struct view {
+    local_slice a, b;
+    path x;
+} local_view;
+
+static inline local_view view_in(const frame *f, const difference *r)
+{
+    return (local_view){normal_slice_to_local(f, &r->a, r->posed > 0),
+                        normal_slice_to_local(f, &r->b, r->posed > 0), normal_path_to_local(f, r)};
+}
+
 /* Makes the frame between the two normals or, if the surfaces are not nearly tangent, the frame of
  * the face or the two edges that touch along `axis`, which nearly separates them; 0: none is known.
  * Its vectors are of unit length up to rounding. False: there is no such frame. */
@@ -79,6 +91,11 @@ static inline double dot2(const double *m, const local *x)
     return m[0] * x->t[0] + m[1] * x->t[1];
 }
 
+/* A symmetric 2 x 2 matrix. */
+typedef struct form {
+    double xx, xy, yy;
+} form;
+
 /* How the field turns with one surface's parameters: m = -K x / 2 for each of its terms x, in the
  * tangents. */
 typedef struct turn {
@@ -88,6 +105,7 @@ typedef struct turn {
 /* The numbers m of the lemma; and what is to be added to the frame's normal, along the tangents,
  * since the middle between the two centres is not where the face is touched. */
 typedef struct turns {
+    form k; /* K */
     turn a, b;
     double w[2], tilt[2];
 } turns;

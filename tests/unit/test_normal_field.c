@@ -209,6 +209,98 @@ START_TEST(the_field_of_normals_proves_no_more_than_the_distance)
 }
 END_TEST
 
+/* Adds random terms of second order, in place at most `size`, with time at most `turn`. */
+static void add_bends(uint64_t *state, node *x, double size, double turn)
+{
+    double *const all[] = {x->f.quu, x->f.quv, x->f.qvv, x->f.qut, x->f.qvt};
+    for (size_t k = 0; k < sizeof all / sizeof *all; ++k)
+        for (int i = 0; i < 3; ++i)
+            all[k][i] += (k < 3 ? size : turn) * random_between(state, -1, 1);
+}
+
+/* Lets it drift, along its plane but for a little. */
+static void add_drift(uint64_t *state, node *x, double h)
+{
+    add_across(state, x->f.bt, h * random_power(state, -4, 2));
+    add_across(state, x->f.qtt, h * random_power(state, -6, 1));
+}
+
+/* Moves the centre of a surface by u and v, in half-widths. */
+static void move_centre(quadratic3 *f, double u, double v)
+{
+    for (int i = 0; i < 3; ++i) {
+        f->bt[i] += f->qut[i] * u + f->qvt[i] * v;
+        f->bu[i] += 2 * f->quu[i] * u + f->quv[i] * v;
+        f->bv[i] += 2 * f->qvv[i] * v + f->quv[i] * u;
+    }
+}
+
+/* Two surfaces of one shape, but for a little, that bend and are warped: at s and m->t they are g
+ * apart, nearly across. They drift along each other; centres may lie anywhere. */
+static meeting nested(uint64_t *state, double s[4], double g)
+{
+    const double h = random_power(state, -6, -1), little = h * random_power(state, -30, -6);
+    meeting m = two_caps(h, random_bits(state) % 2 ? 1 : 1 + random_power(state, -20, -3), 0);
+    double toward[3], norm = 0;
+    const bool is_fast = random_bits(state) % 4 == 0;
+    add_bends(state, &m.a, h * random_power(state, -6, -1),
+              h * random_power(state, -6, is_fast ? 1 : -1));
+    for (int k = 0; k < 4; ++k) s[k] = suite_end_or_inside(state);
+    if (random_bits(state) % 2)
+        for (int k = 0; k < 2; ++k) s[2 + k] = s[k];
+    m.b.f = m.a.f;
+    move_centre(&m.b.f, s[0] - s[2], s[1] - s[3]);
+    double *const b = (double *)&m.b.f;
+    for (size_t k = 0; k < sizeof m.b.f / sizeof *b; ++k)
+        if (k % 4 < 3) b[k] += little * random_between(state, -1, 1);
+    node *both[2] = {&m.a, &m.b};
+    for (int side = 0; side < 2; ++side) {
+        const quadratic3 *f = &both[side]->f;
+        add_drift(state, both[side], h * (is_fast ? 1 : 0x1p-5));
+        for (int i = 0; i < 3; ++i)
+            both[side]->motion[i] =
+                fabs(f->bt[i]) + 2 * fabs(f->qtt[i]) + fabs(f->qut[i]) + fabs(f->qvt[i]);
+    }
+    m.t = 0.5 + 0.5 * suite_end_or_inside(state);
+    across(state, &m.a, s, m.t, toward);
+    for (int i = 0; i < 3; ++i) norm += toward[i] * toward[i];
+    for (int i = 0; i < 3; ++i) {
+        m.gap[i] = g * h * toward[i] / sqrt(norm);
+        m.b.f.a[i] = 0;
+        m.b.f.a[i] = (double)(m.gap[i] + point(&m.a, i, s, m.t, 0) - point(&m.b, i, s + 2, m.t, 0));
+    }
+    return m;
+}
+
+START_TEST(a_dividing_surface_proves_no_more_than_the_distance)
+{
+    uint64_t state = suite_seed() + 6;
+    int proved = 0, more = 0;
+    for (int k = 0; k < suite_times(400000); ++k) {
+        double s[4];
+        const meeting m = nested(&state, s, random_power(&state, -20, -2));
+        const double gap =
+            (double)sqrtl(m.gap[0] * m.gap[0] + m.gap[1] * m.gap[1] + m.gap[2] * m.gap[2]);
+        difference r;
+        w_range all = {-1, 1};
+        gap_lines lines;
+        gap_lines_begin(&lines);
+        difference_at(&m.a, &m.b, &m.window, &r);
+        normal_field_cut(&r, NO_AXIS, 0, &all, &lines);
+        const double w = (m.t - r.mid) / r.half;
+        for (int line = 1; line < lines.count; ++line) {
+            const double lower = lines.line[line].low + lines.line[line].drift * w;
+            proved += lower > 0.25 * gap;
+            ck_assert_msg(lower <= gap * (1 + 1e-9), "case %d: %g apart at w = %g, line %d %g", k,
+                          gap, w, line, lower);
+        }
+        if (lines.count == 3) more += lines.line[2].low > lines.line[1].low;
+    }
+    ck_assert_int_gt(proved, suite_times(400000) / 100);
+    ck_assert_int_gt(more, suite_times(400000) / 200);
+}
+END_TEST
+
 /* Every length times 2^k. */
 static void enlarge(node *n, int k)
 {
@@ -238,6 +330,7 @@ END_TEST
 SUITE_MAIN("normal_field", neither_axes_nor_field_of_normals_lose_a_meeting_alone,
            the_field_of_normals_turns_with_time,
            the_field_of_normals_proves_no_more_than_the_distance,
+           a_dividing_surface_proves_no_more_than_the_distance,
            the_field_of_normals_parts_caps_that_no_axis_does,
            the_field_of_normals_parts_edges_that_bend_towards_each_other,
            the_field_of_normals_parts_an_edge_or_a_corner_from_a_hollow_face,
