@@ -21,14 +21,13 @@ static imp_region all_of(const time_window *times)
 }
 
 /* Bounds how far one surface slides along the other over their common times: along `plane`, or, if
- * that is NULL, modulo the other's symmetry. INFINITY: no bound is known, as where the other has
- * many pieces, each with its own symmetry. */
+ * that is NULL, modulo the other's symmetry, to be `enough` (surface_slip). INFINITY: no bound is
+ * known, for instance where the other has many pieces, each with its own symmetry. */
 static imp_code find_slip(const node *own, const node *other, const surface_plane *plane,
-                          const time_window *times, double moment, double gamma_clear, double *slip,
+                          const time_window *times, double moment, double enough, double *slip,
                           imp_error *error)
 {
     imp_model bare[3];
-    const double enough = distance_slip_enough(gamma_clear);
     *slip = INFINITY;
     if ((plane == NULL && other->many != NULL) || !node_bare_models(own, bare)) return IMP_SUCCESS;
     const imp_region all = all_of(times);
@@ -128,15 +127,17 @@ static imp_code add_orbit(const distance_sides *of, int side, const time_window 
     return IMP_SUCCESS;
 }
 
-/* Bounds in q->slip how far the side slides along the other, found once for each candidate pair. */
+/* Bounds in q->slip how far the side slides along the other, found once for each candidate pair. A
+ * verifier of certificates knows no screws, and would cut leaves that span much time due to one. */
 static imp_code add_slip(const distance_sides *of, int side, const time_window *times,
                          distance_question *q, imp_error *error)
 {
     float *slip = &of->slips->slip[side];
     if (*slip == 0) {
+        const double enough = of->takes_orbits ? distance_slip_enough(q->gamma_clear) : 0;
         double found;
         const imp_code code = find_slip(of->root[side], of->root[!side], NULL, times, q->moment,
-                                        q->gamma_clear, &found, error);
+                                        enough, &found, error);
         if (code != IMP_SUCCESS) return code;
         *slip = float_upper(found);
     }
@@ -214,7 +215,7 @@ static imp_code cut_along_face(const distance_sides *of, int side, double gamma_
                            .slip = INFINITY,
                            .is_audited = of->is_audited};
     const imp_code code =
-        find_slip(of->root[side], other, &plane, &times, q.moment, gamma_clear, &q.slip, error);
+        find_slip(of->root[side], other, &plane, &times, q.moment, 0, &q.slip, error);
     return code == IMP_SUCCESS && distance_slides(&q) ? distance_cut(&q, window, view, error)
                                                       : code;
 }

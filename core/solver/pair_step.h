@@ -33,7 +33,8 @@ imp_code pair_measure(const pair *p, const candidate_pair *both, imp_error *erro
  * strategy_takes_distances; of two roots with many pieces, once for each goal, those of the pieces.
  * Nodes farther apart than `limit` do not matter; `sliding` is the candidate pair's count of
  * trials. `keeps_proof`: a certificate is written, whose verifier does not believe a type's claims
- * of symmetry, so that no point stands for others. IMP_ERROR_PLUGIN: a callback breaks the ABI. */
+ * of symmetry, so that no point stands for others, and no screw motion is taken for rest.
+ * IMP_ERROR_PLUGIN: a callback breaks the ABI. */
 imp_code pair_look(const pair *p, candidate_pair *both, double limit, strategy_goal goal,
                    bool keeps_proof, trial_rate *sliding, distance_outcome *seen, imp_error *error);
 

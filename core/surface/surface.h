@@ -182,8 +182,9 @@ imp_status surface_distance_within(const surface *s, const imp_region *region, s
  * those that both surfaces end with. A distance that b's type claims for all points within *slip of
  * a point of a at `moment` (surface_distance_within) then holds for that point of a at all times of
  * the region. INFINITY: no bound. `moment` is one of these times. `bare` holds models of a before
- * its maps, of which only the ranges are used; a does not move by itself. Where refinement costs
- * much, it ends at `enough`, and no greater slip is known. */
+ * its maps, of which only the ranges are used; a does not move by itself. Where b's symmetry is a
+ * screw, refinement, which costs much, ends at `enough`, and no greater slip is known: none at all
+ * if that is 0. */
 imp_status surface_slip(const surface *a, const surface *b, const imp_model bare[3],
                         const imp_region *times, double moment, double enough, double *slip);
 

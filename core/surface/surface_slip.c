@@ -212,7 +212,7 @@ imp_status surface_slip(const surface *a, const surface *b, const imp_model bare
     if (status == IMP_STATUS_OK && q.found.kind == IMP_SYMMETRY_ACROSS_LINE)
         status = slip_choose_center(&q, times);
     if (status == IMP_STATUS_OK && symmetry_is_screw(&q.found))
-        return slip_find_screw(&q, times, enough, slip);
+        return enough > 0 ? slip_find_screw(&q, times, enough, slip) : IMP_STATUS_OK;
     if (status == IMP_STATUS_OK && symmetry_is_sane(&q.found)) return slip_find(&q, times, slip);
     return status == IMP_STATUS_OK || status == IMP_STATUS_UNBOUNDED ? IMP_STATUS_OK : status;
 }

@@ -67,6 +67,16 @@ near='sphere center=2.01,0.1,0.2'
     json '.verdict == "clear" and .stats.pairs == 1'
 }
 
+# Each flank is nearer to the other's axis than the other's crests: no distance from the axis parts
+# them, and leaves that were cut for a bolt at rest would have to be cut again in time.
+@test "a nut on its bolt is proved by parts, each for some of the time" {
+    local bolt='thread pitch=2 height=0.5 ! screw pitch=2 rate=1' nut='thread radius=1.1 pitch=2 height=1'
+    "$IMPINGE" pair "$bolt" "$nut" --gamma 0.04 --proof thread.proof
+    run -0 timeout 60 "$top_builddir"/tools/impinge-verify thread.proof
+    [[ $output =~ ([0-9]+)" tests" ]]
+    [ "${BASH_REMATCH[1]}" -lt 4000 ]
+}
+
 @test "what a changed file states is not believed" {
     "$IMPINGE" clearance sphere "$near" --tolerance 0.1 --proof distance.proof
     sed 's/^apart .*/apart 1/' distance.proof >larger.proof

@@ -187,7 +187,7 @@ static imp_symmetry screw_of(double lead)
 
 /* The slip of a surface that turns by `rate` and moves by `way` along z over t in [0, 1], along one
  * at rest. */
-static double slip_of(const imp_symmetry *symmetry, double rate, double way)
+static double slip_within(const imp_symmetry *symmetry, double rate, double way, double enough)
 {
     imp_symmetry of = *symmetry;
     motion m = {.rate = rate, .way = {0, 0, way}};
@@ -197,10 +197,15 @@ static double slip_of(const imp_symmetry *symmetry, double rate, double way)
     for (int i = 0; i < 3; ++i) bare[i] = imp_between(-1, 1);
     const imp_region times = region_make((double[3]){0, 0, 0}, (double[3]){1, 1, 1});
     double slip;
-    ck_assert_int_eq(surface_slip(a, b, bare, &times, 0.5, 1e-9, &slip), IMP_STATUS_OK);
+    ck_assert_int_eq(surface_slip(a, b, bare, &times, 0.5, enough, &slip), IMP_STATUS_OK);
     surface_free(a);
     surface_free(b);
     return slip;
+}
+
+static double slip_of(const imp_symmetry *symmetry, double rate, double way)
+{
+    return slip_within(symmetry, rate, way, 1e-9);
 }
 
 START_TEST(only_screw_motions_of_this_lead_and_hand_do_not_slip)
@@ -218,6 +223,14 @@ START_TEST(only_screw_motions_of_this_lead_and_hand_do_not_slip)
     ck_assert(slip_of(&s, 3, 3 * 0.5 / turn) == INFINITY);
     s.is_closed = IMP_SYMMETRY_CLOSED;
     ck_assert(!symmetry_is_sane(&s));
+}
+END_TEST
+
+START_TEST(no_slip_of_a_screw_is_known_where_none_is_enough)
+{
+    const imp_symmetry s = screw_of(0.5);
+    ck_assert(slip_within(&s, 0, 0, 1e-9) <= 1e-9);
+    ck_assert(slip_within(&s, 0, 0, 0) == INFINITY);
 }
 END_TEST
 
@@ -254,4 +267,5 @@ END_TEST
 
 SUITE_MAIN("screw slips", no_point_slips_farther_than_is_claimed,
            slips_that_are_too_small_are_found, only_screw_motions_of_this_lead_and_hand_do_not_slip,
+           no_slip_of_a_screw_is_known_where_none_is_enough,
            turns_beyond_what_is_claimed_are_not_known, rotations_alone_are_no_motions_of_a_screw)
