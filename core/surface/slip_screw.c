@@ -125,9 +125,10 @@ static void rotation_of(const screw_line *s, imp_model angle, imp_model turn[3][
  *   e = c + R (p(t0) - c) + A / (2 pi) axis - p(t),   D = R Q(t0) - Q(t);
  *
  * so what the type claims of all points within that of M(t0) y holds for M(t) y. |D| is at most the
- * root of the sum of squares of its entries. A left-handed screw turns by -A. Roundings: product,
- * sum; of the root of squares 3, of non-negative numbers. */
-PAD_COVERS(16, 2 + 3);
+ * root of the sum of squares of its entries. A left-handed screw turns by -A. Roundings, of numbers
+ * >= 0: of `tilt` a square and eight sums, which the root halves, and the root; product, sum. */
+PAD_COVERS(16, (1 + 8 + 1) / 2 + 1);
+PAD_COVERS(16, 2);
 static double slip_upper(const screw_line *s, const screw_view *now, const imp_region *times)
 {
     const imp_symmetry *of = &s->q->found;

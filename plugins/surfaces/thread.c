@@ -37,7 +37,7 @@ typedef struct thread_instance {
     double radius, root; /* root: at most the least radius, > 0 */
     double starts, height, center[3];
     near_constant along_v, along_z; /* 2 pi height / pitch, 2 pi / pitch; rad, rad/length */
-    double lead, lead_off;          /* starts * pitch, rounded, and room for the rounding; length */
+    double lead, lead_off; /* starts * pitch, rounded, and room for that; 0: no screw is claimed */
     size_t count;
     double profile[];
 } thread_instance;
@@ -67,13 +67,20 @@ static imp_status check(const imp_value *values, imp_create_error *why)
     return IMP_STATUS_OK;
 }
 
+/* Room in the distance beyond this part of the radius is worth more than the symmetry is. */
+#define ROOM_MOST 0x1p-30
+
 /* Lemma. starts * pitch is off by at most u of the lead, u = 2^-53, and screw motions by at most
  * IMP_SCREW_TURNS turns by as often as much. */
 static void set_lead(thread_instance *s, double pitch)
 {
     s->lead = s->starts * pitch;
+    const double length = fabs(s->lead);
     const bool is_exact = fma(s->starts, pitch, -s->lead) == 0;
-    s->lead_off = is_exact ? 0 : fabs(s->lead) * (0x1p-52 * IMP_SCREW_TURNS);
+    s->lead_off = is_exact ? 0 : length * (0x1p-52 * IMP_SCREW_TURNS);
+    if (length >= THREAD_SHORT && length <= THREAD_FAR && s->lead_off <= ROOM_MOST * s->radius)
+        return;
+    s->lead = s->lead_off = 0;
 }
 
 static imp_status thread_create(const imp_value *values, void **self, imp_create_error *why)
@@ -168,10 +175,9 @@ IMP_DISTANCE_FORMULA(thread_gap)
 static imp_status thread_symmetry(const void *self, imp_symmetry *symmetry)
 {
     const thread_instance *s = self;
-    const double length = fabs(s->lead);
-    if (!(length >= THREAD_SHORT && length <= THREAD_FAR)) return IMP_STATUS_UNBOUNDED;
+    if (s->lead == 0) return IMP_STATUS_UNBOUNDED;
     symmetry->kind = s->lead > 0 ? IMP_SYMMETRY_SCREW_RIGHT : IMP_SYMMETRY_SCREW_LEFT;
-    symmetry->axis[2] = length;
+    symmetry->axis[2] = fabs(s->lead);
     memcpy(symmetry->center, s->center, sizeof s->center);
     return IMP_STATUS_OK;
 }

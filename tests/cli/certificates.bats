@@ -70,7 +70,8 @@ near='sphere center=2.01,0.1,0.2'
 # Each flank is nearer to the other's axis than the other's crests: no distance from the axis parts
 # them, and leaves that were cut for a bolt at rest would have to be cut again in time.
 @test "a nut on its bolt is proved by parts, each for some of the time" {
-    local bolt='thread pitch=2 height=0.5 ! screw pitch=2 rate=1' nut='thread radius=1.1 pitch=2 height=1'
+    local bolt='thread pitch=2 height=0.5 ! screw pitch=2 rate=1'
+    local nut='thread radius=1.1 pitch=2 height=1'
     "$IMPINGE" pair "$bolt" "$nut" --gamma 0.04 --proof thread.proof
     run -0 timeout 60 "$top_builddir"/tools/impinge-verify thread.proof
     [[ $output =~ ([0-9]+)" tests" ]]

@@ -61,6 +61,15 @@ END
     json '.verdict == "holds" and .stats.pairs < 50000'
 }
 
+@test "a lead that is rounded costs steep threads no room in their distance" {
+    for pitch in 12345678.1 1234567890.1 1234567890123.4; do
+        local steep="thread starts=7 pitch=$pitch"
+        run -0 "$IMPINGE" pair "$steep height=0.5 ! rotate axis=0,0,1 angle=0.001" \
+            "$steep radius=1.01" --gamma 4e-3 --json
+        json '.verdict == "clear" and .stats.pairs < 100'
+    done
+}
+
 @test "what is required holds, is violated from a time on, or is undecided" {
     run -0 "$IMPINGE" clearance "${passing[@]}" --require 0.9999999 --json
     valid clearance

@@ -12,16 +12,17 @@
 
 /* --- Trials ----------------------------------------------------------------------------------- */
 
-enum { CHAIN = 2 };
+/* A surface is taken to where the screw's line is the z axis, moves by a screw of its own, is taken
+ * back, and moves as the other one does. */
+enum { TO_AXIS, SCREW, BACK, COMMON, CHAIN };
 
-/* Both surfaces move by a screw of their own, then alike. All maps are exact rotations and
- * shifts. */
+/* All maps are exact rotations and shifts, but for the rounding of a line's direction. */
 typedef struct trial {
     imp_symmetry symmetry;
     motion own[2][CHAIN]; /* of a, of b */
     imp_region times;
-    double moment, reach; /* half of the box of points around the center */
-    double off;           /* by what the screws are off, of `reach` */
+    double moment, lead, reach; /* reach: half of the box of points around the center */
+    double off;                 /* by what the screws are off, of `reach` */
 } trial;
 
 static double hand_of(const imp_symmetry *of)
@@ -32,13 +33,28 @@ static double hand_of(const imp_symmetry *of)
 /* A screw motion by `rate`, off by what comes out. */
 static motion draw_screw(uint64_t *random, const trial *y, double rate)
 {
-    motion m = spin_about(y->symmetry.center, rate);
-    const double lead = y->symmetry.axis[2];
-    m.way[2] = (double)(hand_of(&y->symmetry) * rate * lead / TWO_PI);
+    motion m = {.rate = rate};
+    m.way[2] = (double)(hand_of(&y->symmetry) * rate * y->lead / TWO_PI);
     for (int i = 0; i < 3; ++i) m.pivot[i] += y->off * random_between(random, -1, 1);
     for (int i = 0; i < 3; ++i) m.way[i] += y->off * random_between(random, -1, 1);
     m.rate += y->off / y->reach * random_between(random, -1, 1);
     return m;
+}
+
+/* The line lies along any direction. */
+static void draw_line(uint64_t *random, trial *y)
+{
+    motion back = {.rate = 0}, to = {.rate = 0};
+    draw_vector(random, 2, y->symmetry.center);
+    draw_place(random, 1, &back);
+    to.is_placed = true;
+    for (int i = 0; i < 3; ++i) {
+        for (int j = 0; j < 3; ++j) to.place[i][j] = back.place[j][i];
+        to.pivot[i] = back.shift[i] = y->symmetry.center[i];
+        y->symmetry.axis[i] = back.place[i][2] * y->lead;
+    }
+    y->own[0][TO_AXIS] = y->own[1][TO_AXIS] = to;
+    y->own[0][BACK] = y->own[1][BACK] = back;
 }
 
 static motion draw_common(uint64_t *random)
@@ -61,13 +77,13 @@ static trial draw_trial(uint64_t *random)
         region_make((double[3]){0, 0, from}, (double[3]){1, 1, from + random_power(random, -6, 1)});
     y.moment = from + (y.times.hi[2] - from) * random_between(random, 0, 1);
     y.symmetry.kind = random_bits(random) % 2 ? IMP_SYMMETRY_SCREW_RIGHT : IMP_SYMMETRY_SCREW_LEFT;
-    y.symmetry.axis[2] = y.reach * random_power(random, -6, 2);
-    draw_vector(random, 2, y.symmetry.center);
+    y.lead = y.reach * random_power(random, -6, 2);
+    draw_line(random, &y);
     y.off = random_bits(random) % 4 ? y.reach * random_power(random, -36, -12) : 0;
-    y.own[0][0] = draw_screw(random, &y, random_between(random, -4, 4));
-    y.own[1][0] =
+    y.own[0][SCREW] = draw_screw(random, &y, random_between(random, -4, 4));
+    y.own[1][SCREW] =
         draw_screw(random, &y, random_bits(random) % 2 ? random_between(random, -4, 4) : 0);
-    y.own[0][1] = y.own[1][1] = draw_common(random);
+    y.own[0][COMMON] = y.own[1][COMMON] = draw_common(random);
     return y;
 }
 
@@ -94,12 +110,22 @@ static void seen(const trial *y, long double t, const long double from[3], long 
 static long double apart_by(const imp_symmetry *of, long double angle, const long double was[3],
                             const long double x[3])
 {
-    const long double c = cosl(angle), s = sinl(angle);
-    const long double w[2] = {was[0] - of->center[0], was[1] - of->center[1]};
-    const long double along = hand_of(of) * angle / TWO_PI * of->axis[2];
-    const long double way[3] = {of->center[0] + c * w[0] - s * w[1] - x[0],
-                                of->center[1] + s * w[0] + c * w[1] - x[1], was[2] + along - x[2]};
-    return sqrtl(way[0] * way[0] + way[1] * way[1] + way[2] * way[2]);
+    const long double c = cosl(angle), s = sinl(angle), turns = hand_of(of) * angle / TWO_PI;
+    long double w[3], n[3], length = 0, along = 0, sum = 0;
+    for (int i = 0; i < 3; ++i) length = hypotl(length, of->axis[i]);
+    for (int i = 0; i < 3; ++i) {
+        n[i] = of->axis[i] / length;
+        w[i] = was[i] - of->center[i];
+        along += n[i] * w[i];
+    }
+    for (int i = 0; i < 3; ++i) {
+        const int j = (i + 1) % 3, k = (i + 2) % 3;
+        const long double turned =
+            c * w[i] + s * (n[j] * w[k] - n[k] * w[j]) + (1 - c) * along * n[i];
+        const long double way = of->center[i] + turned + turns * of->axis[i] - x[i];
+        sum += way * way;
+    }
+    return sqrtl(sum);
 }
 
 /* The least distance over angles near `angle`, where there is one least. */
@@ -119,7 +145,7 @@ static long double nearest(const imp_symmetry *of, long double angle, const long
 
 static void judge(const trial *y, double slip, uint64_t *random, tally *of)
 {
-    const long double rate = (long double)y->own[0][0].rate - y->own[1][0].rate;
+    const long double rate = (long double)y->own[0][SCREW].rate - y->own[1][SCREW].rate;
     for (int k = 0; k < POINTS; ++k) {
         const long double t = y->times.lo[2] + (y->times.hi[2] - y->times.lo[2]) *
                                                    (long double)random_fraction(random);

@@ -23,7 +23,8 @@ static void draw_axis(uint64_t *random, const imp_symmetry *of, long double n[3]
 static motion draw_screw(uint64_t *random, const imp_symmetry *of)
 {
     const long double turn = 2 * acosl(-1);
-    const double turns = random_power(random, -4, 9) * (random_between(random, -1, 1) < 0 ? -1 : 1);
+    const double turns =
+        random_power(random, -4, 10) * (random_between(random, -1, 1) < 0 ? -1 : 1);
     const double hand = of->kind == IMP_SYMMETRY_SCREW_RIGHT ? 1 : -1;
     long double n[3];
     motion m = {.angle = (double)(hand * turns * turn)};
