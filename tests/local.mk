@@ -574,6 +574,7 @@ noinst_HEADERS += \
     tests/support/clearance_helpers.h \
     tests/support/comma_locale.h \
     tests/support/compose.h \
+    tests/support/edge_nodes.h \
     tests/support/isolated_bowl.h \
     tests/support/kit_registry.h \
     tests/support/made_certificate.h \

@@ -2,7 +2,7 @@
  * SPDX-License-Identifier: Apache-2.0 */
 #include <config.h>
 
-#include "tests/support/meeting_nodes.h"
+#include "tests/support/edge_nodes.h"
 
 /* The turning axis (normal_field.h) on nodes that are nearly tangent. */
 
@@ -69,38 +69,6 @@ START_TEST(the_field_of_normals_turns_with_time)
 }
 END_TEST
 
-/* The normal of two_caps; and nearly that. */
-static const double NORMAL[3] = {0.48, 0.6, 0.64};
-static const vec3 ACROSS = {{0.5, 0.61, 0.62}};
-
-/* Makes one side of two_caps an edge along u, which bends by `bend`, or a corner: the other slopes
- * leave the plane, away from the other side. */
-static void make_edge(meeting *m, int side, double bend, bool is_corner)
-{
-    const double *n = NORMAL, away = side == 0 ? -1 : 1;
-    node *x = side == 0 ? &m->a : &m->b;
-    for (int i = 0; i < 3; ++i) {
-        const double slope[2] = {is_corner ? 0.05 * away * n[i] : 0, 0.05 * away * n[i]};
-        x->f.quu[i] = bend * n[i];
-        x->f.qvv[i] = 0;
-        x->f.bu[i] = (is_corner ? 0.1 : 1) * x->f.bu[i] + slope[0];
-        x->f.bv[i] = 0.1 * x->f.bv[i] + slope[1];
-        x->f.a[i] += slope[0] + slope[1];
-    }
-}
-
-/* Turns the slopes of a side by a quarter turn. */
-static void swap_parameters(node *x)
-{
-    double *const pairs[2][2] = {{x->f.bu, x->f.bv}, {x->f.quu, x->f.qvv}};
-    for (int k = 0; k < 2; ++k)
-        for (int i = 0; i < 3; ++i) {
-            const double was = pairs[k][0][i];
-            pairs[k][0][i] = pairs[k][1][i];
-            pairs[k][1][i] = was;
-        }
-}
-
 /* Moves B within the plane, so that what is nearest is not in the middle. */
 static void move_aside(meeting *m)
 {
@@ -135,6 +103,86 @@ START_TEST(the_field_of_normals_parts_an_edge_or_a_corner_from_a_hollow_face)
         move_aside(&m);
         check_only_field_parts(&m, ACROSS, number);
     }
+}
+END_TEST
+
+/* Places a corner of B, its least s_u and s_v, g from the place x of a hollow face of A, or of what
+ * continues the face: (s_u, b s_v, c s_u^2). */
+static meeting corner_over_hollow(uint64_t *state, double c, double x, double g)
+{
+    const double slope = 2 * c, length = sqrt(1 + slope * slope),
+                 eps = random_power(state, -12, -2);
+    meeting m = two_caps(1, 1, 0);
+    quadratic3 *a = &m.a.f, *b = &m.b.f;
+    memset(a, 0, sizeof *a);
+    memset(b, 0, sizeof *b);
+    a->bu[0] = 1;
+    a->bv[1] = random_power(state, -12, 0);
+    a->quu[2] = c;
+    b->bu[2] = b->bv[2] = eps;
+    b->bv[1] = random_bits(state) % 2 ? 0.1 * eps : 0;
+    b->a[0] = x - slope * g / length;
+    b->a[2] = c * x * x + g / length + 2 * eps;
+    m.t = 1;
+    return m;
+}
+
+/* Makes the term s_u^2 of B move with w along x, as posed nodes do. At the end of the window the
+ * corner is where it was, at its start 2 q before that. */
+static void move_bend(difference *r, double q)
+{
+    slice *both[2] = {&r->a, &r->b};
+    for (int k = 0; k < 2; ++k) {
+        memset(both[k]->uuw, 0, sizeof both[k]->uuw);
+        memset(both[k]->uvw, 0, sizeof both[k]->uvw);
+        memset(both[k]->vvw, 0, sizeof both[k]->vvw);
+    }
+    memset(r->edge, 0, sizeof r->edge);
+    memset(r->swing, 0, sizeof r->swing);
+    r->posed = 1;
+    r->delta[0] -= q;
+    r->b.uuw[0] = q;
+    r->magnitude[0] += 2 * q;
+}
+
+static double sampled_from_corner(const meeting *m)
+{
+    double s[4] = {-1, 0, -1, -1}, least = INFINITY;
+    long double gap[3];
+    for (int k = 0; k <= 200; ++k) {
+        s[0] = -1 + 0.01 * k;
+        least = fmin(least, (double)nearest_gap(m, s, gap));
+    }
+    return least;
+}
+
+START_TEST(a_corner_off_the_middle_of_a_hollow_face_is_no_farther_than_its_samples)
+{
+    uint64_t state = suite_seed() + 3;
+    int proved[2] = {0, 0};
+    for (int n = 0; n < suite_times(6000); ++n) {
+        const double c = random_between(&state, 0.05, 1.2), g = random_power(&state, -3, 0.5);
+        const double x = n % 4 < 2 ? 1 : random_between(&state, 0.5, 1.5);
+        const double q = n % 2 == 1 ? random_between(&state, 0, 0.5) : 0;
+        const meeting m = corner_over_hollow(&state, c, x, g);
+        difference r;
+        w_range all = {-1, 1};
+        gap_lines lines;
+        gap_lines_begin(&lines);
+        difference_at(&m.a, &m.b, &m.window, &r);
+        if (q > 0) move_bend(&r, q);
+        normal_field_cut(&r, (vec3){{0, 0, 1}}, 0, &all, &lines);
+        if (lines.count == 1) continue;
+        const double lower = lines.line[1].low + lines.line[1].drift;
+        const double d = sampled_from_corner(&m);
+        proved[q > 0] += lower > 0.5 * d;
+        ck_assert_msg(lower <= d, "case %d: hollow %g, moved by %g: %g of %g at x = %g", n, c, q,
+                      lower, d, x);
+        /* a field that would have to tilt by 45 degrees is none */
+        ck_assert_msg(c * fabs(r.delta[0]) < 1 + 1e-9, "case %d: tilted by %g", n,
+                      c * fabs(r.delta[0]));
+    }
+    for (int k = 0; k < 2; ++k) ck_assert_int_gt(proved[k], suite_times(6000) / 10);
 }
 END_TEST
 
@@ -334,4 +382,5 @@ SUITE_MAIN("normal_field", neither_axes_nor_field_of_normals_lose_a_meeting_alon
            the_field_of_normals_parts_caps_that_no_axis_does,
            the_field_of_normals_parts_edges_that_bend_towards_each_other,
            the_field_of_normals_parts_an_edge_or_a_corner_from_a_hollow_face,
+           a_corner_off_the_middle_of_a_hollow_face_is_no_farther_than_its_samples,
            caps_that_touch_with_their_tops_are_not_parted_at_any_size)

@@ -2,7 +2,7 @@
  * SPDX-License-Identifier: Apache-2.0 */
 #include <config.h>
 
-#include "tests/support/meeting_nodes.h"
+#include "tests/support/edge_nodes.h"
 
 /* Lower bounds of the distance of two nodes, and the axes that show them. */
 
@@ -157,23 +157,58 @@ static void spoil(node *n, int k, double value)
     }
 }
 
+/* What touches: two faces; edges that cross; an edge of one side on the other's face; a corner. */
+enum { FACES, EDGES, EDGE_OF_A, EDGE_OF_B, CORNER_OF_A, CORNER_OF_B, TOUCHES };
+
+static meeting far_apart(int touch)
+{
+    meeting m = two_caps(0.1, 1.1, 50);
+    if (touch == EDGES) swap_parameters(&m.b);
+    if (touch == EDGES || touch == EDGE_OF_A) make_edge(&m, 0, 0.003, false);
+    if (touch == EDGES || touch == EDGE_OF_B) make_edge(&m, 1, -0.003, false);
+    if (touch == CORNER_OF_A) make_edge(&m, 0, 0.003, true);
+    if (touch == CORNER_OF_B) make_edge(&m, 1, -0.003, true);
+    return m;
+}
+
+static void check_field_parts(const meeting *m, int touch, bool should, int k, double value)
+{
+    difference r;
+    w_range all = {-1, 1};
+    gap_lines lines;
+    gap_lines_begin(&lines);
+    difference_at(&m->a, &m->b, &m->window, &r);
+    const bool some = normal_field_cut(&r, touch == FACES ? NO_AXIS : ACROSS, 1e-6, &all, &lines);
+    const bool parts = !some || all.lo > -1 || all.hi < 1 || lines.count > 1;
+    ck_assert_msg(parts == should, "field: touch %d, coefficient %d, %g", touch, k, value);
+}
+
+static void check_axes_part_nothing(const meeting *m, int touch, int k, double value)
+{
+    difference r;
+    w_range axes = {-1, 1};
+    vec3 axis = {{0, 0, 0}};
+    difference_at(&m->a, &m->b, &m->window, &r);
+    const bool some = fixed_axes_cut(&r, 1e-6, &axes, &axis, NULL);
+    ck_assert_msg(some && axes.lo == -1 && axes.hi == 1, "axes: touch %d, coefficient %d, %g",
+                  touch, k, value);
+}
+
 START_TEST(infinities_and_nans_never_part_anything)
 {
     const double odd[3] = {INFINITY, -INFINITY, NAN};
-    for (int k = 0; k < 11; ++k)
-        for (int o = 0; o < 3; ++o) {
-            meeting m = two_caps(0.1, 1.1, 50);
-            spoil(&m.b, k, k < 10 ? odd[o] : fabs(odd[o]));
-            difference r;
-            w_range axes = {-1, 1}, field = {-1, 1};
-            vec3 axis = {{0, 0, 0}};
-            difference_at(&m.a, &m.b, &m.window, &r);
-            ck_assert_msg(fixed_axes_cut(&r, 1e-6, &axes, &axis, NULL), "axes: coefficient %d, %g",
-                          k, odd[o]);
-            ck_assert_msg(normal_field_cut(&r, NO_AXIS, 1e-6, &field, NULL),
-                          "field: coefficient %d, %g", k, odd[o]);
-            ck_assert(axes.lo == -1 && axes.hi == 1 && field.lo == -1 && field.hi == 1);
+    for (int touch = 0; touch < TOUCHES; ++touch) {
+        const meeting whole = far_apart(touch);
+        check_field_parts(&whole, touch, true, -1, 0);
+        for (int k = 0; k < 2 * 11 * 3; ++k) {
+            meeting m = whole;
+            const int which = k / 2 % 11;
+            const double value = which < 10 ? odd[k / 22] : fabs(odd[k / 22]);
+            spoil(k % 2 == 0 ? &m.a : &m.b, which, value);
+            check_axes_part_nothing(&m, touch, which, value);
+            check_field_parts(&m, touch, false, which, value);
         }
+    }
 }
 END_TEST
 
