@@ -77,7 +77,7 @@ typedef struct imp_explanation {
     const char
         *without_order_2[2];    /* the first type or map of each that has no inclusions (include,
                                        apply); NULL: all have */
-    bool knows_distance[2];     /* whether the type bounds distances, and the maps leave it so */
+    bool knows_distance[2];     /* whether distances from each are bounded, also under its maps */
     uint64_t tested;            /* pairs of their regions that were tested */
     uint64_t divided;           /* and those that nothing parted, */
     uint64_t by[IMP_OBSTACLES]; /* by the obstacle */

@@ -8,6 +8,7 @@
 #include <string.h>
 
 #include "core/bounds/strategy.h"
+#include "core/surface/region.h"
 
 /* --- Variants of a pair ----------------------------------------------------------------------- */
 
@@ -97,10 +98,17 @@ static bool lie_along(const pair *p)
     return a * b > 0 && fabs(a - b) < 0.5 * fmax(fabs(a), fabs(b));
 }
 
-static bool knows_distance(const candidate_pair *both)
+/* Whether the type bounds distances from this instance, which it may for some alone: tried at a
+ * point of the surface. */
+static bool knows_distance(const candidate *c)
 {
-    return surface_has_distance(tree_surface(both->side[0]->tree)) ||
-           surface_has_distance(tree_surface(both->side[1]->tree));
+    const node *root = tree_root(c->tree);
+    imp_model point[3], distance;
+    if (!surface_has_distance(root->surface)) return false;
+    if (root->many != NULL) return true;
+    const imp_region middle = region_make(root->region.c, root->region.c);
+    return surface_include_bare(root->surface, &middle, point) == IMP_STATUS_OK &&
+           surface_distance(root->surface, &middle, 0, point, &distance) == IMP_STATUS_OK;
 }
 
 /* --- One pair --------------------------------------------------------------------------------- */
@@ -112,7 +120,8 @@ imp_obstacle explanation_of(const pair *p, const candidate_pair *both, double ga
     if (pair_has_cluster(p)) return IMP_OBSTACLE_SIZE;
     const int side = blurred_side(p, gamma_clear);
     if (side >= 0) return remainder_obstacle(p, side);
-    return !knows_distance(both) && lie_along(p) ? IMP_OBSTACLE_DISTANCE : IMP_OBSTACLE_SIZE;
+    const bool lacks_distance = !knows_distance(both->side[0]) && !knows_distance(both->side[1]);
+    return lacks_distance && lie_along(p) ? IMP_OBSTACLE_DISTANCE : IMP_OBSTACLE_SIZE;
 }
 
 imp_obstacle explanation_if_asked(const impact *im, const pair *p)
@@ -149,6 +158,6 @@ void explanation_describe(const candidate_pair *both, imp_explanation *row)
         row->surface[side] = c->surface;
         row->type[side] = surface_instance_at(s, 0, &type) ? type.name : NULL;
         row->without_order_2[side] = without_order_2(s);
-        row->knows_distance[side] = surface_has_distance(s);
+        row->knows_distance[side] = knows_distance(c);
     }
 }
