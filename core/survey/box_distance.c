@@ -49,7 +49,8 @@ static void settle(imp_survey *s, const survey_box *box)
 static const double LEAST_TOLERANCE = 1e-9;      /* that a query takes */
 static const double DECIDING_TOLERANCE = 2.5e-7; /* a quarter of what tolerances_nearly leaves */
 
-/* Whether a box may be halved whose parameters shift the bodies by this. */
+/* Whether a box is to be halved whose parameters shift the bodies by this. A smaller shift, below
+ * 2e-90, may be that of a box of which no range can be halved. */
 static bool is_divisible(double total) { return total > 4 * SURFACE_STILL; }
 
 static bool is_requirement_open(const imp_survey *s)
@@ -80,8 +81,9 @@ static double tolerance_of(const imp_survey *s, double total)
  * enough, to D. A bracket ends with a lower bound of at least (1 - R) of its upper one. With R =
  * 1 - h / upper, it is at least h if the upper bound stays as it is; with R = 0.25e-6, it is above
  * h for any upper bound above D. An upper bound of at most D violates the requirement. So two more
- * brackets decide, and what is between h and the distance that is enough covers a shift of
- * 4 SURFACE_STILL. */
+ * brackets decide: if D >= 2^-277, the 0.5e-6 D between h and the distance that is enough covers a
+ * shift of 4 SURFACE_STILL = 2^-298. For smaller D they may not; such a box is halved where it can
+ * be, else it is unresolved. */
 static double tolerance_deciding(const imp_survey *s, double before, double upper)
 {
     const double required = s->question.clearance.required;
@@ -217,10 +219,11 @@ static imp_code prove_enough(imp_survey *s, survey_box *box, imp_scene *scene,
     }
 }
 
-/* Asks for the bracket at the middle; *is_nearer: its points are the nearest so far. */
+/* Asks for the bracket at the middle. If its points are the nearest so far, it becomes *nearest and
+ * *is_nearer true. */
 static imp_code ask_middle(imp_survey *s, survey_box *box, imp_scene *scene, double total,
-                           double tolerance, imp_clearance *found, bool *is_nearer,
-                           imp_error *error)
+                           double tolerance, imp_clearance *found, imp_clearance *nearest,
+                           bool *is_nearer, imp_error *error)
 {
     const double enough = survey_distance_enough(s);
     const double within = enough < INFINITY ? sum_upper(enough, total) : 0;
@@ -232,7 +235,10 @@ static imp_code ask_middle(imp_survey *s, survey_box *box, imp_scene *scene, dou
     const double lower = total > 0 ? difference_lower(found->lower, total) : found->lower;
     survey_proof_note(s, -INFINITY, lower);
     if (lower > box->key) box->key = lower;
-    *is_nearer = note_nearest(s, &s->pairs.at[box->pair], s->box.middle, found);
+    if (note_nearest(s, &s->pairs.at[box->pair], s->box.middle, found)) {
+        *nearest = *found;
+        *is_nearer = true;
+    }
     return IMP_SUCCESS;
 }
 
@@ -248,17 +254,19 @@ static imp_code measure_middle(imp_survey *s, survey_box *box, imp_scene *scene,
 {
     const bool is_moved = total > 0 && !box_is_unmoved(&s->pairs.at[box->pair]);
     double tolerance = tolerance_of(s, total);
-    imp_clearance found;
-    bool is_nearer;
-    imp_code code = ask_middle(s, box, scene, total, tolerance, &found, &is_nearer, error);
+    imp_clearance found, nearest;
+    bool is_nearer = false;
+    imp_code code =
+        ask_middle(s, box, scene, total, tolerance, &found, &nearest, &is_nearer, error);
     while (code == IMP_SUCCESS && !box_is_limit(found.reason) &&
            must_narrow(s, box, total, tolerance)) {
         tolerance = tolerance_deciding(s, tolerance, found.upper);
-        code = ask_middle(s, box, scene, total, tolerance, &found, &is_nearer, error);
+        code = ask_middle(s, box, scene, total, tolerance, &found, &nearest, &is_nearer, error);
     }
     if (code != IMP_SUCCESS) return code;
     if (box_must_end(s, found.reason)) return *state = BOX_WAITING, IMP_SUCCESS;
-    return is_nearer && is_moved ? descend(s, &s->pairs.at[box->pair], &found, state, error) : code;
+    return is_nearer && is_moved ? descend(s, &s->pairs.at[box->pair], &nearest, state, error)
+                                 : code;
 }
 
 /* Below so many pairs, brackets at the middles of smaller boxes cost less than a search by ways,
