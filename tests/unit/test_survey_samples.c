@@ -165,13 +165,13 @@ static imp_scene *scene_of_one_parameter(scene_writer *w, uint64_t *r)
     }
 }
 
-static imp_clearance bracket(imp_scene *scene, double tolerance, double required)
+static imp_clearance bracket(imp_scene *scene, double gamma, double tolerance, double required)
 {
     const imp_survey_options how = imp_survey_options_default();
     imp_clearance_options asked = imp_clearance_options_default();
     asked.tolerance = tolerance;
     asked.required = required;
-    return survey(scene, 1e-6, &asked, &how).near;
+    return survey(scene, gamma, &asked, &how).near;
 }
 
 START_TEST(a_requirement_is_decided_however_coarse_the_bracket)
@@ -181,7 +181,7 @@ START_TEST(a_requirement_is_decided_however_coarse_the_bracket)
     const int scenes = suite_times(12);
     for (int n = 0; n < scenes; ++n) {
         imp_scene *scene = scene_of_one_parameter(&w, &random);
-        const imp_clearance fine = bracket(scene, 1e-4, 0);
+        const imp_clearance fine = bracket(scene, 1e-6, 1e-4, 0);
         const double lower = fine.lower, upper = fine.upper;
         const double required[] = {lower * random_between(&random, 0.5, 1),
                                    lower,
@@ -191,15 +191,41 @@ START_TEST(a_requirement_is_decided_however_coarse_the_bracket)
                                    upper * (1 + random_power(&random, -9, -3))};
         for (size_t k = 0; k < sizeof required / sizeof *required && lower > 1e-3; ++k) {
             const double tolerance = random_between(&random, 0.05, 0.9), d = required[k];
-            const imp_clearance coarse = bracket(scene, tolerance, d);
-            ck_assert_msg(coarse.verdict != IMP_REQUIREMENT_UNDECIDED,
-                          "--tolerance %.17g --require %.17g: undecided, reason %d: %s", tolerance,
-                          d, (int)coarse.reason, w.text);
+            /* the search is not to end at a gamma above what is required */
+            const double gamma = n % 2 == 0 ? 1e-6 : d * random_between(&random, 1, 3);
+            const imp_clearance coarse = bracket(scene, gamma, tolerance, d);
+            ck_assert_msg(
+                coarse.verdict != IMP_REQUIREMENT_UNDECIDED,
+                "--gamma %.17g --tolerance %.17g --require %.17g: undecided, reason %d: %s", gamma,
+                tolerance, d, (int)coarse.reason, w.text);
             if (d <= lower) ck_assert_int_eq(coarse.verdict, IMP_REQUIREMENT_HOLDS);
             if (d > upper) ck_assert_int_eq(coarse.verdict, IMP_REQUIREMENT_VIOLATED);
         }
         imp_scene_free(scene);
     }
+}
+END_TEST
+
+/* Two balls 1e-6 apart that the least change of either parameter, which no double halves, moves by
+ * 2e-10. */
+static const char apart_by_rounding[] =
+    "{'parameters':{'c':[1,1.0000000000000002],'d':[1,1.0000000000000002]},'bodies':["
+    "{'surfaces':[{'type':'sphere'}],'maps':[{'type':'translate','velocity':[0,1e6,0],"
+    "'clock':'d'},{'type':'translate','offset':[[0,-1e6,0]]}]},"
+    "{'surfaces':[{'type':'sphere'}],'maps':[{'type':'translate','velocity':[1e6,0,0],"
+    "'clock':'c'},{'type':'translate','offset':[[-999997.999999,0,0]]}]}]}";
+
+START_TEST(what_doubles_cannot_decide_is_unresolved)
+{
+    imp_scene *scene = scene_of(apart_by_rounding);
+    const imp_clearance near = bracket(scene, 1e-9, 0.5, 1e-6);
+    ck_assert_int_eq(near.verdict, IMP_REQUIREMENT_UNDECIDED);
+    ck_assert_int_eq(near.reason, IMP_REASON_RESOLUTION);
+    ck_assert(near.lower < 1e-6 && 1e-6 < near.upper);
+    const imp_clearance less = bracket(scene, 1e-9, 0.5, 9e-7);
+    ck_assert_int_eq(less.verdict, IMP_REQUIREMENT_HOLDS);
+    ck_assert_int_eq(less.reason, IMP_REASON_NONE);
+    imp_scene_free(scene);
 }
 END_TEST
 
@@ -209,6 +235,7 @@ int main(void)
         {no_sample_is_nearer_than_what_is_proved_of_its_box, 4},
         {what_some_values_violate_is_never_proved, 4},
         {a_requirement_is_decided_however_coarse_the_bracket, 2},
+        {what_doubles_cannot_decide_is_unresolved, 1},
     };
     return suite_main_loops("survey_samples", loops, sizeof loops / sizeof *loops, open_registry,
                             close_registry);
