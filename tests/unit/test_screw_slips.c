@@ -15,6 +15,7 @@
 /* A surface is taken to where the screw's line is the z axis, moves by a screw of its own, is taken
  * back, and moves as the other one does. */
 enum { TO_AXIS, SCREW, BACK, COMMON, CHAIN };
+enum { TRIALS = CASES / 8 };
 
 /* All maps are exact rotations and shifts, but for the rounding of a line's direction. */
 typedef struct trial {
@@ -167,7 +168,7 @@ static tally try_all(double factor)
 {
     uint64_t random = suite_seed();
     tally of = {.judged = 0};
-    for (int k = 0; k < suite_times_at_least(CASES / 4); ++k) {
+    for (int k = 0; k < suite_times_at_least(TRIALS); ++k) {
         trial y = draw_trial(&random);
         surface *a = compose_trial(&y, 0), *b = compose_trial(&y, 1);
         imp_model bare[3];
@@ -191,8 +192,8 @@ START_TEST(no_point_slips_farther_than_is_claimed)
     const tally of = try_all(1);
     ck_assert_msg(of.refuted == 0, "of %d %d are refuted", of.judged, of.refuted);
     ck_assert_msg(of.sharpest > 0.2, "%g of the slip is shown at most", of.sharpest);
-    ck_assert_msg(4 * of.known > suite_times_at_least(CASES / 4), "%d are known", of.known);
-    ck_assert_msg(10 * of.exact > suite_times_at_least(CASES / 4), "%d are exact", of.exact);
+    ck_assert_msg(4 * of.known > suite_times_at_least(TRIALS), "%d are known", of.known);
+    ck_assert_msg(10 * of.exact > suite_times_at_least(TRIALS), "%d are exact", of.exact);
 }
 END_TEST
 
