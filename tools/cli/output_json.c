@@ -58,7 +58,7 @@ static size_t write_shortest(const char *from, char *to)
     }
     const double number = strtod(from, NULL);
     memmove(to, from, length);
-    for (int digits = may_have_15_digits(from, length, number) ? 15 : 16; digits < 17; ++digits) {
+    for (int digits = may_have_15_digits(to, length, number) ? 15 : 16; digits < 17; ++digits) {
         const size_t shorter = (size_t)snprintf(text, sizeof text, "%.*g", digits, number);
         if (shorter >= length || strtod(text, NULL) != number) continue;
         memcpy(to, text, shorter);
