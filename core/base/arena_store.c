@@ -63,6 +63,14 @@ void arena_store_free(arena_store *store)
     free(store);
 }
 
+size_t arena_store_count(const arena_store *store)
+{
+    size_t count = 0;
+    for (size_t k = 0; k < SLOTS; ++k)
+        for (const arena_block *b = store->block[k]; b != NULL; b = b->next) ++count;
+    return count;
+}
+
 /* False: another thread uses it, or one did when this process was forked. */
 static bool enter(arena_store *store)
 {
