@@ -450,6 +450,7 @@ grid() {
     run -0 "$IMPINGE" clearance "${passing[@]}" --profile 5
     [[ ${lines[1]} == "0,0.2,"* && ${lines[2]} == "0.2,0.4,"* ]]
     [[ $(cut -d, -f1,2 <<<"$output") != *0000000000* ]]
-    run -0 "$IMPINGE" clearance sphere 'sphere center=3,0,0' --time 0.00059,0.000591 --profile 1 --json
+    run -0 "$IMPINGE" clearance sphere 'sphere center=3,0,0' --time 0.00059,0.000591 --profile 1 \
+        --json
     [[ ${lines[0]} == '{"t0":0.00059,"t1":0.000591,'* ]]
 }
