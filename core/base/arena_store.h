@@ -19,7 +19,7 @@ typedef struct arena_store arena_store;
 arena_store *arena_store_new(void); /* NULL: no memory */
 void arena_store_free(arena_store *store);
 
-/* Counts the blocks that it keeps, for who counts those of the heap. Nobody may use it meanwhile. */
+/* Counts the blocks that it keeps. Nobody may use it meanwhile. */
 size_t arena_store_count(const arena_store *store);
 
 struct arena_block;

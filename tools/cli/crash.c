@@ -156,10 +156,18 @@ static const char *plugin_at(void *address)
     return info.dli_fname;
 }
 
+_Noreturn static void blame_unloaded_code(void)
+{
+    line l = {.used = 0};
+    add(&l, "crashed in code that is no longer loaded, as in a thread that a plugin left; run with "
+            "--isolate all");
+    end_with(&l);
+}
+
 /* Code of a plugin also runs outside of its callbacks: in threads that it has left, in destructors
  * of thread-local data, in handlers. Reading the stack is not safe in a handler, but the process is
  * lost anyway; if it hangs, the alarm ends it. */
-static void blame_if_on_stack(void)
+static void blame_if_on_stack(const void *fault)
 {
     enum { FRAMES = 64, SECONDS = 5 };
     void *frame[FRAMES];
@@ -168,7 +176,9 @@ static void blame_if_on_stack(void)
     alarm(SECONDS);
     const int count = backtrace(frame, FRAMES);
     for (int k = 0; k < count; ++k) {
+        Dl_info info;
         const char *file = plugin_at(frame[k]);
+        if (fault != NULL && frame[k] == fault && dladdr(fault, &info) == 0) blame_unloaded_code();
         if (file == NULL) continue;
         line l = {.used = 0};
         add(&l, "crashed in plugin '");
@@ -178,22 +188,21 @@ static void blame_if_on_stack(void)
     }
 }
 
-/* The stack cannot be read where it begins in code that is no longer loaded. */
+/* Older unwinders crash where the stack begins in code that is no longer loaded; newer ones end
+ * there, with the address of the fault. */
 static void on_second_crash(int number)
 {
-    line l = {.used = 0};
-    add(&l, "crashed in code that is no longer loaded, as in a thread that a plugin left; run with "
-            "--isolate all");
     (void)number;
-    end_with(&l);
+    blame_unloaded_code();
 }
 
-static void on_crash(int number)
+static void on_crash(int number, siginfo_t *about, void *context)
 {
+    (void)context;
     blame_if_in_call(NULL);
     signal(SIGSEGV, on_second_crash);
     signal(SIGBUS, on_second_crash);
-    blame_if_on_stack();
+    blame_if_on_stack(number == SIGSEGV || number == SIGBUS ? about->si_addr : NULL);
     if (prepared == getpid()) {
         line l = {.used = 0};
         add(&l, "impinge: crashed outside of all plugins; if one has damaged memory, --isolate all "
@@ -297,15 +306,19 @@ void crash_prepare(bool json)
 {
     static char room[SIGNAL_STACK];
     const stack_t stack = {.ss_sp = room, .ss_size = sizeof room};
-    struct sigaction action = {.sa_handler = on_crash, .sa_flags = SA_ONSTACK | SA_NODEFER};
+    struct sigaction action = {.sa_sigaction = on_crash,
+                               .sa_flags = SA_ONSTACK | SA_NODEFER | SA_SIGINFO};
+    void *frame;
     prepared = getpid();
     json_wanted = json;
+    backtrace(&frame, 1); /* loads the unwinder, which is then not taken for a plugin's library */
     note_objects();
     enter_call();
     sigemptyset(&action.sa_mask);
     sigaltstack(&stack, NULL);
     const int fatal[] = {SIGSEGV, SIGBUS, SIGFPE, SIGILL, SIGABRT};
     for (size_t k = 0; k < sizeof fatal / sizeof *fatal; ++k) sigaction(fatal[k], &action, NULL);
+    action.sa_flags &= ~SA_SIGINFO;
     action.sa_handler = crash_interrupted;
     struct sigaction usual;
     if (sigaction(SIGQUIT, NULL, &usual) == 0 && usual.sa_handler != SIG_IGN)
