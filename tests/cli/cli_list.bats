@@ -115,11 +115,11 @@ load ../support/cli_helper
 
 @test "info lists what the host uses of a type" {
     uses() { "$IMPINGE" info "$1" --json | jq -r '.types[0].capabilities | join(" ")'; }
-    [ "$(uses sphere)" = 'core order-2 distance symmetry formula' ]
-    [ "$(uses superellipsoid)" = 'core order-2 formula' ]
-    [ "$(uses bezier)" = 'core order-2 net formula' ]
-    [ "$(uses translate)" = 'core order-2 net rigid span formula' ]
-    [ "$(uses rotate)" = 'core order-2 rigid span formula' ]
+    [ "$(uses sphere)" = 'core order-2 distance symmetry formula renew' ]
+    [ "$(uses superellipsoid)" = 'core order-2 formula renew' ]
+    [ "$(uses bezier)" = 'core order-2 net formula renew' ]
+    [ "$(uses translate)" = 'core order-2 net rigid span formula renew' ]
+    [ "$(uses rotate)" = 'core order-2 rigid span formula renew' ]
     [ "$(uses tolerance)" = 'core order-2 formula parts' ]
     run -0 "$IMPINGE" info triangle
     [[ $output == *'uses       core order-2 net formula'* ]]
