@@ -167,6 +167,18 @@ static inline certificate plates_made(void)
     A "u; v; -1\nmap 1 step\nt in [-inf, " B "]; x; y; z " BEFORE " | t in [" B                    \
       ", inf]; x; y; z " AFTER "\nsurface 1 1 2"
 #define A_FLAT "u; v; 1\nsurface 0 0\nbody b\nshape 1 plate\nu in [-9, 9]; v in [-9, 9]; "
+#define A_BESIDE(OWN, OTHER, Z)                                                                    \
+    "t in [" OWN "]; u; v; 1 | u in [-9, 0]; v in [0, 1]; t in [" OTHER "]; u; v; " Z              \
+    "\nsurface 0 0\nbody b\nshape 1 plate\nu in [-9, 9]; v in [-9, 9]; u; v; -1\nsurface 1 1"
+#define FROM_W                                                                                     \
+    "parameter 0 1 w\nwithin 3 at 0 0\npoint 0 0 0 0\npoint 1 0 0 0\nbody a\nshape 1 plate\n"      \
+    "u in [-9, 0]; v in [0, 1]; "
+#define AT_0_OF_W(Z)                                                                               \
+    "parameter -1 1 w\nwithin 3 at 0 -1\npoint 0 0 0 0\npoint 1 0 0 0\nbody a\nshape 1 plate "     \
+    "clock 1\nu in [-9, 0]; v in [0, 1]; t in [-1, 0]; u; v; 1 | u in [-9, 0]; v in [0, 1]; "      \
+    "t in [0, 1]; u; v; 3\nsurface 0 0\nbody b\nshape 1 plate clock 1\nu in [-9, 9]; v in [-9, "   \
+    "9]; t in [-1, 0]; u; v; -1 | u in [-9, 9]; v in [-9, 9]; t in [0, 1]; u; v; " Z               \
+    "\nsurface 1 1"
 #define POINTS "within 3 at 0 0\npoint 0 0 0 0\npoint 1 0 0 0\nbody a\nshape 1 plate\nu in"
 static const claim_change plates_claims[] = {
     {"apart 1\n", "apart 1\n", true},
@@ -180,7 +192,7 @@ static const claim_change plates_claims[] = {
     {"plate\n", "plate clokc 1\n", false},
     {"plate\n", "plate clock 1 1\n", false},
     {"0 0 0 0\n", "0 0 0 0 0\n", false},
-    /* surfaces that jump at one time, at which each of their parts counts */
+    /* stages that jump at one value of a clock, at which each of their parts counts */
     {PLATES, A_UP "u; v; -1\nsurface 1 1", true},
     {PLATES, A_UP B_AFTER("-3"), true},
     {PLATES, A_UP B_AFTER("0.9"), false},
@@ -190,6 +202,14 @@ static const claim_change plates_claims[] = {
     {PLATES, MAPPED(A_FLAT, "1", "", "+ 1.9"), false},
     {PLATES, MAPPED(A_FLAT, "0", "- 0.5", ""), true},
     {PLATES, MAPPED(A_FLAT, "0", "+ 1.9", ""), false},
+    {PLATES, MAPPED(A_FLAT "t in [0, 0.5]; ", "0.5", "", "+ 0.9"), true},
+    {PLATES, MAPPED(A_FLAT "t in [0, 0.5]; ", "0.5", "", "+ 1.9"), false},
+    {PLATES, A_BESIDE("0, 1", "1, 2", "3"), true},
+    {PLATES, A_BESIDE("0, 1", "1, 2", "-1"), false},
+    {PLATES, A_BESIDE("0, 1", "-1, 0", "1.5"), true},
+    {PLATES, A_BESIDE("0, 1", "-1, 0", "-1"), false},
+    {FROM_W PLATES, AT_0_OF_W("-0.1"), true},
+    {FROM_W PLATES, AT_0_OF_W("0.9"), false},
     /* nothing is nearer than 0 */
     {"apart 1\n", "apart 0\n", false},
     {"apart 1\n", "apart 1e-400\n", false},

@@ -28,46 +28,46 @@ static int compare(const void *x, const void *y)
     return (a > b) - (a < b);
 }
 
-/* Notes where a part begins or ends within the claim, and where one of a map that only meets the
- * claim does. */
-static bool add_part(const part *p, const scene_clock *clock, bool is_map, ends *inside,
-                     ends *outside)
+static void sort(ends *e)
 {
-    for (int side = 0; side < 2; ++side) {
-        const double at = side == 0 ? p->lo[T] : p->hi[T];
-        const bool meets = is_map && at == (side == 0 ? clock->hi : clock->lo);
-        if (clock->lo < at && at < clock->hi && !add_end(inside, at)) return false;
-        if (meets && !add_end(outside, at)) return false;
-    }
-    return true;
+    if (e->count > 0) qsort(e->at, e->count, sizeof *e->at, compare);
 }
 
-/* Notes the ends of all parts of a chain that follow a clock, in order. */
-static bool find_ends(const place *p, size_t clock, ends *inside, ends *outside)
+/* Notes where parts of a stage begin or end within the claim, once each; and in `both` the ends of
+ * the claim that a part only meets. */
+static bool add_stage(const stage *g, const scene_clock *clock, ends *inside, ends *both)
 {
-    for (size_t k = 0; k <= p->maps; ++k) {
-        const stage *g = &p->of->stages[p->chain->stages[k]];
-        for (size_t i = 0; i < g->count && g->clock == clock; ++i)
-            for (size_t j = 0; j < g->pieces[i].count; ++j)
-                if (!add_part(&g->pieces[i].parts[j], &p->of->clocks[clock], k > 0, inside,
-                              outside))
-                    return false;
-    }
-    if (inside->count > 0) qsort(inside->at, inside->count, sizeof *inside->at, compare);
-    return true;
+    ends all = {.at = NULL};
+    bool good = true;
+    for (size_t i = 0; i < g->count; ++i)
+        for (size_t j = 0; j < g->pieces[i].count && good; ++j)
+            for (int side = 0; side < 2 && good; ++side) {
+                const part *p = &g->pieces[i].parts[j];
+                const double at = side == 0 ? p->lo[T] : p->hi[T];
+                if (clock->lo < at && at < clock->hi) good = add_end(&all, at);
+                if (at == (side == 0 ? clock->hi : clock->lo)) good = add_end(both, at);
+            }
+    sort(&all);
+    for (size_t i = 0; i < all.count && good; ++i)
+        if (i == 0 || all.at[i] != all.at[i - 1]) good = add_end(inside, all.at[i]);
+    free(all.at);
+    return good;
 }
 
-static bool find(const place side[2], size_t clock, ends of[2], ends *both)
+/* Finds the values that are ends of two stages. */
+static bool find(const place side[2], size_t clock, ends *inside, ends *both)
 {
-    for (int k = 0; k < 2; ++k)
-        if (!find_ends(&side[k], clock, &of[k], both)) return false;
-    for (size_t i = 0, k = 0; i < of[0].count && k < of[1].count;) {
-        const double a = of[0].at[i], b = of[1].at[k];
-        if (a == b && !add_end(both, a)) return false;
-        i += a <= b, k += b <= a;
-    }
-    if (both->count > 0) qsort(both->at, both->count, sizeof *both->at, compare);
-    return true;
+    bool good = true;
+    for (int s = 0; s < 2; ++s)
+        for (size_t k = 0; k <= side[s].maps && good; ++k) {
+            const stage *g = &side[s].of->stages[side[s].chain->stages[k]];
+            if (g->clock == clock) good = add_stage(g, &side[s].of->clocks[clock], inside, both);
+        }
+    sort(inside);
+    for (size_t i = 1; i < inside->count && good; ++i)
+        if (inside->at[i] == inside->at[i - 1]) good = add_end(both, inside->at[i]);
+    sort(both);
+    return good;
 }
 
 bool jumps_find(const place side[2], jumps *found)
@@ -75,10 +75,9 @@ bool jumps_find(const place side[2], jumps *found)
     bool good = true;
     *found = (jumps){.at = {NULL}};
     for (size_t clock = 0; clock < side[0].of->clock_count && good; ++clock) {
-        ends of[2] = {{.at = NULL}, {.at = NULL}}, both = {.at = NULL};
-        good = find(side, clock, of, &both);
-        free(of[0].at);
-        free(of[1].at);
+        ends inside = {.at = NULL}, both = {.at = NULL};
+        good = find(side, clock, &inside, &both);
+        free(inside.at);
         found->at[clock] = both.at;
         found->count[clock] = both.count;
     }

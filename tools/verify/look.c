@@ -4,6 +4,7 @@
 
 #include "tools/verify/look.h"
 
+#include <math.h>
 #include <stdint.h>
 #include <stdlib.h>
 #include <string.h>
@@ -109,8 +110,8 @@ enclosed look_net(memory *all, const place *of, const box3 *where, form *found, 
     const bool follows = place_follows_main(of, 0) || !shape->is_moving;
     const bool exact = shape->net != NULL && alone && bare.maps == 0 && follows;
     const uint64_t stamp = exact ? 0 : of->when->stamp;
-    box3 key = *where;
-    if (!shape->is_moving && alone && bare.maps == 0) key.lo[T] = key.hi[T] = 0;
+    box3 key = *where; /* no box has the time INFINITY */
+    if (!shape->is_moving && alone && bare.maps == 0) key.lo[T] = key.hi[T] = INFINITY;
     const chain *moved = bare.maps > 0 ? of->chain : NULL;
     const size_t at = mixed_box(
         (uintptr_t)shape + (uintptr_t)moved + 31 * bare.maps + (uintptr_t)(stamp * 1000003), &key);
