@@ -97,7 +97,9 @@ static bool widest(const prover *p, const cell *c, const apart_trial *tried, cut
             const double lo = side < 2 ? c->lo[side][j] : c->t[0];
             const double hi = side < 2 ? c->hi[side][j] : c->t[1];
             const double here = side < 2 ? tried->size[side][j] : tried->time;
-            if (!(hi > lo) || (!(here > most) && !(here == most && hi - lo > width))) continue;
+            const double mid = middle(lo, hi);
+            if (!(lo < mid && mid < hi)) continue;
+            if (!(here > most) && !(here == most && hi - lo > width)) continue;
             *by = (cut){side, j, NAN};
             most = here, width = hi - lo;
         }
