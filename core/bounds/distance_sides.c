@@ -214,8 +214,8 @@ static imp_code cut_along_face(const distance_sides *of, int side, double gamma_
                            .moment = 0.5 * times.lo + 0.5 * times.hi,
                            .slip = INFINITY,
                            .is_audited = of->is_audited};
-    const imp_code code =
-        find_slip(of->root[side], other, &plane, &times, q.moment, 0, &q.slip, error);
+    const imp_code code = find_slip(of->root[side], other, &plane, &times, q.moment,
+                                    distance_slip_enough(gamma_clear), &q.slip, error);
     return code == IMP_SUCCESS && distance_slides(&q) ? distance_cut(&q, window, view, error)
                                                       : code;
 }

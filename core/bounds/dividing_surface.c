@@ -275,7 +275,9 @@ static bool slack_and_length(const difference *r, const frame *f, const dividing
         tilt += mu[i] * fabs(vec3_dot(f->n, f->t[i])) + mu[i] * (TILT_ROUNDING * UNIT_ROUNDOFF);
         lean += mu[i] * vec3_norm(f->t[i]);
     }
-    if (!(size < 0x1p400)) return false;
+    /* An underflow, below 2^-1074, is multiplied by two lengths: together less than
+     * QUADRATIC_UNDERFLOW. */
+    if (!(size < 0x1p400 && far[0] < 0x1p200 && far[1] < 0x1p200)) return false;
     *slack_upper =
         slack + (slack * (SUM_PAD * UNIT_ROUNDOFF) + size * (DIVIDING_ROUNDING * UNIT_ROUNDOFF));
     *length_upper = padded_upper(sqrt(vec3_dot(f->n, f->n) + 2 * tilt + lean * lean), ROOT_PAD);
