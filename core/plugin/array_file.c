@@ -5,11 +5,13 @@
 #include "core/plugin/array_file.h"
 
 #include <errno.h>
+#include <fcntl.h>
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 #include <sys/stat.h>
+#include <unistd.h>
 
 #include "core/plugin/parameters_internal.h"
 
@@ -282,7 +284,8 @@ static imp_code read_numbers(const npy *f, double *number)
 
 static imp_code take_numbers(const npy *f, const array_file_limit *limit, imp_value *value)
 {
-    if (limit != NULL && !limit->allows(limit->context, f->size + f->count * sizeof(double)))
+    const uint64_t bytes = f->size + f->count * sizeof(double);
+    if (limit != NULL && !limit->allows(limit->context, limit->held + bytes))
         return IMP_ERROR_LIMIT;
     double *number = malloc(f->count * sizeof *number);
     if (number == NULL) return error_set_memory(f->error);
@@ -314,10 +317,19 @@ const char *array_file_name(const json_t *json, const place *at, imp_error *erro
     return NULL;
 }
 
+/* Without O_NONBLOCK, opening a pipe waits for a writer. */
+static FILE *open_file(const char *path)
+{
+    const int file = open(path, O_RDONLY | O_CLOEXEC | O_NONBLOCK | O_NOCTTY);
+    FILE *opened = file >= 0 ? fdopen(file, "rb") : NULL;
+    if (file >= 0 && opened == NULL) close(file);
+    return opened;
+}
+
 imp_code array_file_read(const imp_parameter *row, const char *path, const array_file_limit *limit,
                          const place *at, imp_value *value, uint64_t *bytes, imp_error *error)
 {
-    npy f = {.row = row, .path = path, .at = at, .error = error, .file = fopen(path, "rbe")};
+    npy f = {.row = row, .path = path, .at = at, .error = error, .file = open_file(path)};
     struct stat facts;
     uint64_t numbers = 0;
     if (f.file == NULL)
@@ -330,6 +342,6 @@ imp_code array_file_read(const imp_parameter *row, const char *path, const array
     if (code == IMP_SUCCESS) code = check_shape(&f, numbers);
     if (code == IMP_SUCCESS) code = take_numbers(&f, limit, value);
     fclose(f.file);
-    *bytes = f.size;
+    *bytes = code == IMP_SUCCESS ? f.count * sizeof(double) : 0;
     return code;
 }

@@ -27,10 +27,11 @@ const char *array_file_name(const json_t *json, const place *at, imp_error *erro
 typedef struct array_file_limit {
     bool (*allows)(void *context, uint64_t bytes);
     void *context;
+    uint64_t held; /* bytes of arrays that were read before */
 } array_file_limit;
 
-/* Reads the array; *bytes becomes the size of the file. parameters_clear_value frees the value; on
- * failure there is nothing to clear. IMP_ERROR_LIMIT without a text: the limit, which may be
+/* Reads the array; *bytes becomes the size of its numbers. parameters_clear_value frees the value;
+ * on failure there is nothing to clear. IMP_ERROR_LIMIT without a text: the limit, which may be
  * NULL, does not allow it. */
 imp_code array_file_read(const imp_parameter *row, const char *path, const array_file_limit *limit,
                          const place *at, imp_value *value, uint64_t *bytes, imp_error *error);

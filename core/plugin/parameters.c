@@ -124,6 +124,8 @@ static imp_code read_array_file(const imp_parameter *row, const json_t *json, co
     if (values->files == NULL) values->files = json_array();
     if (path == NULL || json_array_append_new(values->files, path) != 0)
         return error_set_memory(error);
+    array_file_limit rest;
+    if (limit != NULL) rest = *limit, rest.held += values->file_bytes, limit = &rest;
     const imp_code code =
         array_file_read(row, json_string_value(path), limit, at, value, &bytes, error);
     values->file_bytes += bytes;

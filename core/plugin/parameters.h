@@ -35,7 +35,7 @@ typedef struct parameter_values {
     size_t room_left;    /* numbers that still fit there */
     arena_store *store;  /* of that memory */
     json_t *files;       /* paths of array files that were read; NULL: none */
-    uint64_t file_bytes; /* of these */
+    uint64_t file_bytes; /* of their numbers */
     json_t *made; /* JSON that is not in the object: presets, names of files made whole; or NULL */
 } parameter_values;
 

@@ -291,7 +291,7 @@ imp_code scene_making_begin(scene_making *m, const scene_source *source, imp_typ
     *m = (scene_making){.budget = source->budget};
     imp_code code = find_type(source->registry, kind, object, at, m, error);
     if (code != IMP_SUCCESS) return code;
-    const array_file_limit limit = {allows, m->budget};
+    const array_file_limit limit = {.allows = allows, .context = m->budget};
     code = parameters_read(&m->view.table, m->view.name, object, source->folder, &limit, at,
                            &m->values, error);
     if (code == IMP_ERROR_LIMIT) code = reading_budget_refuse(m->budget, at, error);

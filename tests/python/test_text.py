@@ -73,6 +73,17 @@ def test_relative_files_of_a_text_begin_at_the_folder_of_its_name(tmp_path, monk
     assert json.loads(pickle.loads(pickle.dumps(scene)).to_json()) == json.loads(scene.to_json())
 
 
+def test_arrays_of_numpy_begin_at_the_folder_of_the_text(tmp_path, monkeypatch):
+    numpy.save(tmp_path / "points.npy", numpy.eye(4, 3))
+    (tmp_path / "scene.json").write_text(
+        '{"bodies": [{"surfaces": [{"type": "bezier", "degree": [1, 1], "points": {"file": "points.npy"}}]},'
+        ' {"surfaces": [{"type": "sphere", "center": [3, 0, 0]}]}]}')
+    scene = impinge.Scene.from_file(tmp_path / "scene.json")
+    monkeypatch.chdir("/")
+    assert answer(impinge.Scene.from_json(scene.to_json())) == answer(scene)
+    assert answer(pickle.loads(pickle.dumps(scene))) == answer(scene)
+
+
 def everything(builder: impinge.Builder, offs: str) -> impinge.Scene:
     """A scene of all that a builder takes."""
     angle = numpy.float64(0.1) + 0.2  # no short decimal number

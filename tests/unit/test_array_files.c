@@ -3,6 +3,7 @@
 #include <config.h>
 
 #include <stdio.h>
+#include <sys/stat.h>
 #include <unistd.h>
 
 #include "tests/support/query_helpers.h"
@@ -210,6 +211,11 @@ START_TEST(an_object_that_names_no_file_is_refused)
     ck_assert_msg(strstr(error.text, "or {\"file\": NAME}") != NULL, "%s", error.text);
     ck_assert_ptr_null(read_scene("{\"file\":\"/none/such.npy\"}"));
     ck_assert_msg(strstr(error.text, "/none/such.npy: No such file") != NULL, "%s", error.text);
+    unlink(path);
+    ck_assert_int_eq(mkfifo(path, 0600), 0); /* nobody writes to it */
+    ck_assert_ptr_null(read_file());
+    ck_assert_msg(strstr(error.text, "it is no regular file") != NULL, "%s", error.text);
+    unlink(path);
 }
 END_TEST
 

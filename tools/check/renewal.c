@@ -56,6 +56,7 @@ static imp_status create_from(const renewal *r, const imp_value *values, imp_ins
 {
     imp_create_error why = {.struct_size = sizeof why, .parameter = -1, .element = -1};
     *made = *r->host;
+    made->self = NULL; /* the host's is destroyed once */
     subject_note_stage(r->answer, "create", r->stage);
     const imp_status status = made->surface != NULL
                                   ? made->surface->create(values, &made->self, &why)

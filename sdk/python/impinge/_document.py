@@ -69,6 +69,9 @@ def resolve_stage(type_name: str, parameters: Dict[str, Any], folder: str) -> No
     for name in Registry.files_of(type_name):
         if isinstance(parameters.get(name), str):
             parameters[name] = os.path.join(folder, parameters[name])
+    for value in parameters.values():  # an array of numbers in a file, {"file": NAME}
+        if isinstance(value, dict) and list(value) == ["file"] and isinstance(value["file"], str):
+            value["file"] = os.path.join(folder, value["file"])
 
 
 def changed(document: Document, changes: Mapping[Where, Change]) -> Document:
