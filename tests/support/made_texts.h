@@ -192,7 +192,7 @@ static const claim_change plates_claims[] = {
     {"plate\n", "plate clokc 1\n", false},
     {"plate\n", "plate clock 1 1\n", false},
     {"0 0 0 0\n", "0 0 0 0 0\n", false},
-    /* stages that jump at one value of a clock, at which each of their parts counts */
+    /* surfaces that jump at one value of a clock, at which each of their parts counts */
     {PLATES, A_UP "u; v; -1\nsurface 1 1", true},
     {PLATES, A_UP B_AFTER("-3"), true},
     {PLATES, A_UP B_AFTER("0.9"), false},
@@ -202,8 +202,6 @@ static const claim_change plates_claims[] = {
     {PLATES, MAPPED(A_FLAT, "1", "", "+ 1.9"), false},
     {PLATES, MAPPED(A_FLAT, "0", "- 0.5", ""), true},
     {PLATES, MAPPED(A_FLAT, "0", "+ 1.9", ""), false},
-    {PLATES, MAPPED(A_FLAT "t in [0, 0.5]; ", "0.5", "", "+ 0.9"), true},
-    {PLATES, MAPPED(A_FLAT "t in [0, 0.5]; ", "0.5", "", "+ 1.9"), false},
     {PLATES, A_BESIDE("0, 1", "1, 2", "3"), true},
     {PLATES, A_BESIDE("0, 1", "1, 2", "-1"), false},
     {PLATES, A_BESIDE("0, 1", "-1, 0", "1.5"), true},

@@ -33,39 +33,37 @@ static void sort(ends *e)
     if (e->count > 0) qsort(e->at, e->count, sizeof *e->at, compare);
 }
 
-/* Notes where parts of a stage begin or end within the claim, once each; and in `both` the ends of
- * the claim that a part only meets. */
+/* Notes where parts of a stage begin or end within the claim; and in `both` the ends of the claim
+ * that a part only meets. */
 static bool add_stage(const stage *g, const scene_clock *clock, ends *inside, ends *both)
 {
-    ends all = {.at = NULL};
     bool good = true;
     for (size_t i = 0; i < g->count; ++i)
         for (size_t j = 0; j < g->pieces[i].count && good; ++j)
             for (int side = 0; side < 2 && good; ++side) {
                 const part *p = &g->pieces[i].parts[j];
                 const double at = side == 0 ? p->lo[T] : p->hi[T];
-                if (clock->lo < at && at < clock->hi) good = add_end(&all, at);
+                if (clock->lo < at && at < clock->hi) good = add_end(inside, at);
                 if (at == (side == 0 ? clock->hi : clock->lo)) good = add_end(both, at);
             }
-    sort(&all);
-    for (size_t i = 0; i < all.count && good; ++i)
-        if (i == 0 || all.at[i] != all.at[i - 1]) good = add_end(inside, all.at[i]);
-    free(all.at);
     return good;
 }
 
-/* Finds the values that are ends of two stages. */
-static bool find(const place side[2], size_t clock, ends *inside, ends *both)
+static bool find(const place side[2], size_t clock, ends of[2], ends *both)
 {
     bool good = true;
-    for (int s = 0; s < 2; ++s)
+    for (int s = 0; s < 2; ++s) {
         for (size_t k = 0; k <= side[s].maps && good; ++k) {
             const stage *g = &side[s].of->stages[side[s].chain->stages[k]];
-            if (g->clock == clock) good = add_stage(g, &side[s].of->clocks[clock], inside, both);
+            if (g->clock == clock) good = add_stage(g, &side[s].of->clocks[clock], &of[s], both);
         }
-    sort(inside);
-    for (size_t i = 1; i < inside->count && good; ++i)
-        if (inside->at[i] == inside->at[i - 1]) good = add_end(both, inside->at[i]);
+        sort(&of[s]);
+    }
+    for (size_t i = 0, k = 0; i < of[0].count && k < of[1].count && good;) {
+        const double a = of[0].at[i], b = of[1].at[k];
+        if (a == b) good = add_end(both, a);
+        i += a <= b, k += b <= a;
+    }
     sort(both);
     return good;
 }
@@ -75,9 +73,10 @@ bool jumps_find(const place side[2], jumps *found)
     bool good = true;
     *found = (jumps){.at = {NULL}};
     for (size_t clock = 0; clock < side[0].of->clock_count && good; ++clock) {
-        ends inside = {.at = NULL}, both = {.at = NULL};
-        good = find(side, clock, &inside, &both);
-        free(inside.at);
+        ends of[2] = {{.at = NULL}, {.at = NULL}}, both = {.at = NULL};
+        good = find(side, clock, of, &both);
+        free(of[0].at);
+        free(of[1].at);
         found->at[clock] = both.at;
         found->count[clock] = both.count;
     }

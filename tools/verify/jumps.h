@@ -5,13 +5,13 @@
 
 #include "tools/verify/enclose.h"
 
-/* Values at which points of a pair may be in no cell
- * ==================================================
- * Where parts of a formula meet at a value of a clock, both count there. Cells end at that value,
- * so that a part of one stage (a shape or a map, of either surface) that ends there and one of
- * another stage that begins there are in no cell together: such values are proved by themselves.
- * If one stage alone has parts that meet there, no pair of points is left out. Where the claim
- * begins or ends, a part on the other side counts. */
+/* Values at which both surfaces of a pair may jump
+ * ================================================
+ * Where parts of formulas meet at a value of a clock, both count there: all stages of a surface,
+ * its shape and its maps, take the parts before it, or all those after it. Cells end at that value,
+ * so that a part of A that ends there and one of B that begins there are in no cell together: such
+ * values are proved by themselves. If one surface alone has parts that meet there, no pair of
+ * points is left out. Where the claim begins or ends, a part on the other side counts. */
 
 typedef struct jumps {
     double *at[CLOCKS_MAX]; /* of each clock, in order */
