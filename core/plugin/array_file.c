@@ -232,7 +232,7 @@ static double number_of(const npy *f, const unsigned char *bytes)
     return is_below ? -(double)magnitude : (double)magnitude;
 }
 
-/* Returns where number k of the file stands in the value, which has rows first. */
+/* Returns the index in the value, which has rows first, of number k of the file. */
 static size_t place_of(const npy *f, size_t k)
 {
     size_t index[IMP_RANK_MAX], to = 0;
