@@ -92,7 +92,7 @@ core_plugin = \
     core/plugin/isolate_ahead.c core/plugin/isolate_stand_in.c \
     core/plugin/json_describe.c core/plugin/json_describe.h \
     core/plugin/kept_instances.c core/plugin/kept_instances.h \
-    core/plugin/load_cache.c \
+    core/plugin/load_cache.c core/plugin/open_file.h \
     core/plugin/load_probe.c core/plugin/load_probe.h \
     core/plugin/output_guard.c core/plugin/output_guard.h \
     core/plugin/parameter_default.c \

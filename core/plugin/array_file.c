@@ -5,7 +5,6 @@
 #include "core/plugin/array_file.h"
 
 #include <errno.h>
-#include <fcntl.h>
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -13,6 +12,7 @@
 #include <sys/stat.h>
 #include <unistd.h>
 
+#include "core/plugin/open_file.h"
 #include "core/plugin/parameters_internal.h"
 
 /* The format is that of numpy.lib.format: a magic text, a version, the length of the head, and the
@@ -317,10 +317,9 @@ const char *array_file_name(const json_t *json, const place *at, imp_error *erro
     return NULL;
 }
 
-/* Without O_NONBLOCK, opening a pipe waits for a writer. */
-static FILE *open_file(const char *path)
+static FILE *open_array(const char *path)
 {
-    const int file = open(path, O_RDONLY | O_CLOEXEC | O_NONBLOCK | O_NOCTTY);
+    const int file = open_file(path);
     FILE *opened = file >= 0 ? fdopen(file, "rb") : NULL;
     if (file >= 0 && opened == NULL) close(file);
     return opened;
@@ -329,7 +328,7 @@ static FILE *open_file(const char *path)
 imp_code array_file_read(const imp_parameter *row, const char *path, const array_file_limit *limit,
                          const place *at, imp_value *value, uint64_t *bytes, imp_error *error)
 {
-    npy f = {.row = row, .path = path, .at = at, .error = error, .file = open_file(path)};
+    npy f = {.row = row, .path = path, .at = at, .error = error, .file = open_array(path)};
     struct stat facts;
     uint64_t numbers = 0;
     if (f.file == NULL)

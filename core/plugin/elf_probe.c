@@ -7,9 +7,9 @@
 #include "core/plugin/elf_probe.h"
 #include "core/plugin/elf_segments.h"
 #include "core/plugin/elf_tables.h"
+#include "core/plugin/open_file.h"
 
 #include <errno.h>
-#include <fcntl.h>
 #include <stdarg.h>
 #include <stdio.h>
 #include <string.h>
@@ -273,8 +273,7 @@ static bool run_checks(elf_file *file, bool all, elf_probe *probe)
 static bool probe_file(const char *path, bool all, elf_probe *probe)
 {
     for (int id = 0; id < PROBE_CHECKS; ++id) probe->check[id].name = check_rows[id].name;
-    /* Without O_NONBLOCK, opening a pipe waits for a writer. */
-    elf_file file = {.fd = open(path, O_RDONLY | O_CLOEXEC | O_NONBLOCK | O_NOCTTY)};
+    elf_file file = {.fd = open_file(path)};
     bool passed = run_checks(&file, all, probe);
     probe->lacks_memory = file.lacks_memory;
     if (file.fd >= 0) close(file.fd);

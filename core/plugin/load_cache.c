@@ -5,6 +5,7 @@
 #include "core/base/text.h"
 #include "core/common/array.h"
 #include "core/plugin/load_probe.h"
+#include "core/plugin/open_file.h"
 
 #include <fcntl.h>
 #include <inttypes.h>
@@ -124,12 +125,11 @@ static bool read_lines(load_cache *cache, FILE *in)
     return good;
 }
 
-/* Only a regular file is read: a pipe or a device might block or never end.
- */
+/* Only a regular file is read: a pipe or a device might block or never end. */
 static FILE *open_cache(const char *file)
 {
     struct stat facts;
-    const int fd = open(file, O_RDONLY | O_CLOEXEC | O_NONBLOCK | O_NOCTTY);
+    const int fd = open_file(file);
     const bool good = fd >= 0 && fstat(fd, &facts) == 0 && S_ISREG(facts.st_mode) &&
                       facts.st_size <= CACHE_BYTES_MAX;
     FILE *in = good ? fdopen(fd, "r") : NULL;

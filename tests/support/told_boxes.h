@@ -5,8 +5,8 @@
 
 #include "tests/support/survey_helpers.h"
 
-/* A sink of a survey that keeps some of the boxes that are told as proved: a random sample, in
- * which each box has the same chance. */
+/* A sink of a survey that keeps a random sample of the proved boxes, in which each box has the same
+ * chance. */
 
 enum { VALUES_MAX = 8, TOLD_MAX = 64 };
 

@@ -231,6 +231,22 @@ static meeting warped(uint64_t *state, double s[4], double g, int edges)
     return m;
 }
 
+static double gap_of(const meeting *m)
+{
+    return (double)sqrtl(m->gap[0] * m->gap[0] + m->gap[1] * m->gap[1] + m->gap[2] * m->gap[2]);
+}
+
+/* The lines that the field finds, whatever the gap; *r becomes the difference. */
+static gap_lines lines_of(const meeting *m, vec3 axis, difference *r)
+{
+    w_range all = {-1, 1};
+    gap_lines lines;
+    gap_lines_begin(&lines);
+    difference_at(&m->a, &m->b, &m->window, r);
+    normal_field_cut(r, axis, 0, &all, &lines);
+    return lines;
+}
+
 START_TEST(the_field_of_normals_proves_no_more_than_the_distance)
 {
     uint64_t state = suite_seed() + 5;
@@ -238,14 +254,9 @@ START_TEST(the_field_of_normals_proves_no_more_than_the_distance)
     for (int k = 0; k < suite_times(400000); ++k) {
         double s[4];
         const meeting m = warped(&state, s, random_power(&state, -12, 1), k % 4);
-        const double gap =
-            (double)sqrtl(m.gap[0] * m.gap[0] + m.gap[1] * m.gap[1] + m.gap[2] * m.gap[2]);
+        const double gap = gap_of(&m);
         difference r;
-        w_range all = {-1, 1};
-        gap_lines lines;
-        gap_lines_begin(&lines);
-        difference_at(&m.a, &m.b, &m.window, &r);
-        normal_field_cut(&r, k % 4 == 0 ? NO_AXIS : ACROSS, 0, &all, &lines);
+        const gap_lines lines = lines_of(&m, k % 4 == 0 ? NO_AXIS : ACROSS, &r);
         if (lines.count == 1) continue;
         const double w = (m.t - r.mid) / r.half;
         const double lower = lines.line[1].low + lines.line[1].drift * w;
@@ -327,14 +338,9 @@ START_TEST(a_dividing_surface_proves_no_more_than_the_distance)
     for (int k = 0; k < suite_times(400000); ++k) {
         double s[4];
         const meeting m = nested(&state, s, random_power(&state, -20, -2));
-        const double gap =
-            (double)sqrtl(m.gap[0] * m.gap[0] + m.gap[1] * m.gap[1] + m.gap[2] * m.gap[2]);
+        const double gap = gap_of(&m);
         difference r;
-        w_range all = {-1, 1};
-        gap_lines lines;
-        gap_lines_begin(&lines);
-        difference_at(&m.a, &m.b, &m.window, &r);
-        normal_field_cut(&r, NO_AXIS, 0, &all, &lines);
+        const gap_lines lines = lines_of(&m, NO_AXIS, &r);
         const double w = (m.t - r.mid) / r.half;
         for (int line = 1; line < lines.count; ++line) {
             const double lower = lines.line[line].low + lines.line[line].drift * w;
