@@ -75,7 +75,8 @@ typedef struct channel_work {
     size_t
         pieces; /* set by REQUEST_CREATE of a type that has them, else 0; how many are in bytes */
     double lo[3], hi[3]; /* domain, after REQUEST_CREATE; a map: times in [0], span in [1] */
-    size_t n; /* points; of REQUEST_VALUES: bytes; of REQUEST_CREATE: values; the first piece */
+    size_t n; /* points; of REQUEST_VALUES: bytes; of REQUEST_CREATE: values, and back from it bytes
+                 of names of files that it read, each NUL-terminated; the first piece */
     int wants_error;
     double p[4 * CHANNEL_POINTS], x[3 * CHANNEL_POINTS], error[3 * CHANNEL_POINTS];
     imp_region region;

@@ -27,20 +27,38 @@ static imp_status send_bytes(isolated *i, const unsigned char *bytes, size_t siz
     return status;
 }
 
+/* Tells the host of the files that create read, as the worker has written their names. False: the
+ * host has no memory, or something overwrote the channel. */
+static bool tell_files(const channel *c, imp_create_error *why)
+{
+    const size_t end = c->work.n;
+    if (end > CHANNEL_BYTES || (end > 0 && c->bytes[end - 1] != '\0')) return false;
+    for (size_t at = 0; at < end && why->reads != NULL;) {
+        const char *path = (const char *)c->bytes + at;
+        if (!why->reads(why, path)) return false;
+        at += strlen(path) + 1;
+    }
+    return true;
+}
+
 static imp_status request_create(isolated *i, const unsigned char *bytes, size_t size, size_t count,
                                  imp_create_error *why)
 {
     channel_work *c = &i->worker->channel->work;
     imp_status status = worker_enter(i->worker, i);
     if (status != IMP_STATUS_OK) return status;
-    c->why = *why;
+    const imp_create_error own = *why;
+    c->why = own;
     status = send_bytes(i, bytes, size);
     c->n = count;
     c->limits = i->limits;
     c->end = READING_GOES_ON;
     if (status == IMP_STATUS_OK) status = worker_request(i->worker, i, REQUEST_CREATE);
     *why = c->why;
-    why->goes_on = NULL; /* the worker's own */
+    why->goes_on = own.goes_on; /* the worker has its own */
+    why->reads = own.reads;
+    if (status == IMP_STATUS_OK && !tell_files(i->worker->channel, why))
+        status = IMP_STATUS_INTERNAL;
     i->end = c->end;
     i->own.self = status == IMP_STATUS_OK ? c->self : NULL;
     memcpy(i->own.lo, c->lo, sizeof i->own.lo);

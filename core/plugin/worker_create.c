@@ -58,12 +58,25 @@ static int goes_on(imp_create_error *why, uint64_t bytes)
     return w->end == READING_GOES_ON;
 }
 
+/* What create tells (imp_create_error.reads): the names go back through the channel. */
+static int reads(imp_create_error *why, const char *path)
+{
+    worker_server *s = (worker_server *)(void *)((char *)why - offsetof(worker_server, work) -
+                                                 offsetof(channel_work, why));
+    const size_t size = path != NULL ? strlen(path) + 1 : 0;
+    if (size == 0 || size > CHANNEL_BYTES - s->work.n) return 0;
+    memcpy(s->with->bytes + s->work.n, path, size);
+    s->work.n += size;
+    return 1;
+}
+
 static imp_status create_with(worker_server *s, const imp_value *values)
 {
     channel_work *w = &s->work;
     const worker_type type = s->type;
     begin(s, CALLBACK_CREATE);
     w->why.goes_on = goes_on;
+    w->why.reads = reads;
     if (w->limits.seconds > 0) w->limits.seconds += clock_thread_seconds();
     const imp_status status = type.surface != NULL ? type.surface->create(values, &w->self, &w->why)
                                                    : type.map->create(values, &w->self, &w->why);
@@ -164,6 +177,7 @@ imp_status worker_create(worker_server *s)
     imp_status status = w->n == 0 || values != NULL ? IMP_STATUS_OK : out_of_memory(w);
     w->self = NULL;
     w->pieces = 0;
+    w->n = 0;
     if (status == IMP_STATUS_OK) status = create_with(s, values);
     free(values);
     free(s->bytes);

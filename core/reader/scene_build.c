@@ -99,22 +99,35 @@ typedef struct guarded_error {
     imp_create_error why;
     unsigned char after[256]; /* texts that are too long end here */
     reading_budget *budget;   /* NULL: no limits */
+    const scene_source *source;
 } guarded_error;
+
+static const guarded_error *guarded_error_of(const imp_create_error *why)
+{
+    return (const guarded_error *)(const void *)((const char *)why - offsetof(guarded_error, why));
+}
 
 /* What create asks (imp_create_error.goes_on). */
 static int goes_on(imp_create_error *why, uint64_t bytes)
 {
-    const guarded_error *g =
-        (const guarded_error *)(const void *)((const char *)why - offsetof(guarded_error, why));
-    return reading_budget_allows(g->budget, bytes);
+    return reading_budget_allows(guarded_error_of(why)->budget, bytes);
 }
 
-static void guard(guarded_error *g, reading_budget *budget)
+/* What create tells (imp_create_error.reads). */
+static int reads(imp_create_error *why, const char *path)
+{
+    const scene_source *source = guarded_error_of(why)->source;
+    return path != NULL && scene_files_add(source->files, path, source->folder);
+}
+
+static void guard(guarded_error *g, const scene_making *m)
 {
     memset(g, MARK, sizeof *g);
     g->why = (imp_create_error){.struct_size = sizeof g->why, .parameter = -1, .element = -1};
-    g->budget = budget;
-    if (budget != NULL) g->why.goes_on = goes_on;
+    g->budget = m->budget;
+    g->source = m->source;
+    if (m->budget != NULL) g->why.goes_on = goes_on;
+    if (m->source->files != NULL) g->why.reads = reads;
 }
 
 /* In this process, or in that of the stand-in, which then is the instance. */
@@ -164,7 +177,7 @@ static imp_code run_create(scene_making *m, const place *at, scene_build_note *n
     const type_view *view = &m->view;
     void **self = &m->instance.self;
     guarded_error g;
-    guard(&g, m->budget);
+    guard(&g, m);
     *self = NULL;
     fp_mode before = fp_mode_read();
     imp_call *call = m->stand_in == NULL ? active_callback_begin(view->name, "create") : NULL;
@@ -193,7 +206,7 @@ static imp_code run_create(scene_making *m, const place *at, scene_build_note *n
 static bool run_renew(scene_making *m, scene_build_note *note)
 {
     guarded_error g;
-    guard(&g, m->budget);
+    guard(&g, m);
     const fp_mode before = fp_mode_read();
     imp_call *call = active_callback_begin(m->view.name, "renew");
     const imp_status status = m->view.renew(m->again->self, m->values.value, &g.why);
@@ -288,7 +301,7 @@ static bool allows(void *budget, uint64_t bytes) { return reading_budget_allows(
 imp_code scene_making_begin(scene_making *m, const scene_source *source, imp_type_kind kind,
                             const json_t *object, const place *at, imp_error *error)
 {
-    *m = (scene_making){.budget = source->budget};
+    *m = (scene_making){.source = source, .budget = source->budget};
     imp_code code = find_type(source->registry, kind, object, at, m, error);
     if (code != IMP_SUCCESS) return code;
     const array_file_limit limit = {.allows = allows, .context = m->budget};
@@ -303,7 +316,7 @@ imp_code scene_making_begin_numbers(scene_making *m, const scene_source *source,
                                     const char *type, const imp_argument *arguments, size_t count,
                                     const place *at, imp_error *error)
 {
-    *m = (scene_making){.budget = source->budget};
+    *m = (scene_making){.source = source, .budget = source->budget};
     if (!look_up(source->registry, kind, type, m)) return IMP_SUCCESS;
     imp_code code = parameter_numbers_read(&m->view.table, arguments, count,
                                            registry_store(source->registry), at, &m->values, error);

@@ -55,9 +55,10 @@ imp_code scene_build_instance(const scene_source *source, imp_type_kind kind, co
 typedef struct scene_making {
     imp_instance instance; /* its `self` is NULL until create has made it */
     type_view view;
-    const char *file;       /* of the plugin */
-    isolated *stand_in;     /* NULL: it is not isolated */
-    reading_budget *budget; /* NULL: no limits */
+    const char *file;           /* of the plugin */
+    isolated *stand_in;         /* NULL: it is not isolated */
+    const scene_source *source; /* outlives it */
+    reading_budget *budget;     /* NULL: no limits */
     parameter_values values;
     shared_instance *again; /* an instance to be refilled, held; NULL: create makes one */
 } scene_making;

@@ -121,6 +121,7 @@ static imp_status open_file(gltf_data *d, const char *uri, json_int_t index, glt
     if (!write_path(d->folder, uri, path, sizeof path))
         return gltf_refuse(d, "buffers", index, "/uri", "too long a name");
     d->has_other_files = true;
+    if (d->to->why != NULL && !imp_reads(d->to->why, path)) return IMP_STATUS_INTERNAL;
     const imp_status status = mesh_read_whole(path, &b->owned, &b->length, d->to, d->fault);
     if (status == IMP_STATUS_OK) d->to->held += b->length;
     return status;

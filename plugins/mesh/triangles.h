@@ -30,7 +30,7 @@ typedef struct triangles {
     triangles_count left_out; /* statements of a file that are no points and no faces */
     triangles_count cut;      /* polygons that a fan would not cover */
     bool has_other_files;     /* the file named others, which were read */
-    imp_create_error *why;    /* for imp_goes_on; NULL: no limits */
+    imp_create_error *why;    /* for imp_goes_on, imp_reads; NULL: no limits */
     size_t held;              /* bytes beside these: of files that are being read */
 } triangles;                  /* begins as {0}, or with keeps_faces set; triangles_clear frees */
 

@@ -176,6 +176,14 @@ static inline int imp_goes_on(imp_create_error *why, uint64_t bytes)
     return !IMP_OFFERS(why, goes_on) || why->goes_on(why, bytes);
 }
 
+/* Tells the host of a file that create is about to read and that none of its values names, so that
+ * certificates hold its hash. 0: no memory; free everything and return IMP_STATUS_INTERNAL. A
+ * create that reads such files does not call imp_repeatable. */
+static inline int imp_reads(imp_create_error *why, const char *path)
+{
+    return !IMP_OFFERS(why, reads) || why->reads(why, path);
+}
+
 /* --- Domains ---------------------------------------------------------------------------------- */
 
 /* u and v as given, at all times. Angles up to IMP_TWO_PI_UPPER cover the full turn, so that

@@ -166,6 +166,11 @@ typedef struct imp_create_error {
      * that many bytes. 0: a limit on time or memory was reached; free everything and return
      * IMP_STATUS_INTERNAL, and the host tells the limit. NULL: no limits. Use imp_goes_on. */
     int (*goes_on)(struct imp_create_error *why, uint64_t bytes);
+    /* Told of each file that create reads and no value names (the buffers of an asset, say), before
+     * it is opened: `path` as for fopen, NUL-terminated. The host copies it, and certificates of
+     * the scene then hold the file's hash. 0: no memory; free everything and return
+     * IMP_STATUS_INTERNAL. NULL: nobody asks. Use imp_reads. */
+    int (*reads)(struct imp_create_error *why, const char *path);
 } imp_create_error;
 
 /* --- Regions, rates, models ------------------------------------------------------------------- */
@@ -704,11 +709,11 @@ IMP_LAYOUT(sizeof(double) == 8 && sizeof(void *) == 8 && sizeof(size_t) == 8);
 IMP_LAYOUT(sizeof(imp_parameter) == 72 && offsetof(imp_parameter, kind) == 32);
 IMP_LAYOUT(offsetof(imp_parameter, extent) == 44 && offsetof(imp_parameter, min) == 56);
 IMP_LAYOUT(sizeof(imp_value) == 48 && offsetof(imp_value, number) == 32);
-IMP_LAYOUT(sizeof(imp_create_error) == 528 && offsetof(imp_create_error, text) == 16);
+IMP_LAYOUT(sizeof(imp_create_error) == 536 && offsetof(imp_create_error, text) == 16);
 IMP_LAYOUT(offsetof(imp_create_error, note_count) == 256 &&
            offsetof(imp_create_error, note) == 268);
 IMP_LAYOUT(offsetof(imp_create_error, is_repeatable) == 512 &&
-           offsetof(imp_create_error, goes_on) == 520);
+           offsetof(imp_create_error, goes_on) == 520 && offsetof(imp_create_error, reads) == 528);
 IMP_LAYOUT(sizeof(imp_region) == 96 && offsetof(imp_region, c) == 48);
 IMP_LAYOUT(sizeof(imp_box4) == 64);
 IMP_LAYOUT(sizeof(imp_rate_matrix) == 72 && sizeof(imp_map_rates) == 96);

@@ -166,6 +166,29 @@ sealed() {
     [[ $output == "refused at byte "*"names no file"* ]]
 }
 
+@test "a receipt is of the files that a file of a scene names" {
+    printf '%36s' '' | tr ' ' '\0' >corners.bin
+    printf '\0\0\200\77' | dd of=corners.bin bs=1 seek=12 conv=notrunc status=none
+    printf '\0\0\200\77' | dd of=corners.bin bs=1 seek=28 conv=notrunc status=none
+    cat >roof.gltf <<'END'
+{"asset": {"version": "2.0"}, "buffers": [{"byteLength": 36, "uri": "corners.bin"}],
+ "bufferViews": [{"buffer": 0, "byteLength": 36}],
+ "accessors": [{"bufferView": 0, "componentType": 5126, "count": 3, "type": "VEC3"}],
+ "meshes": [{"primitives": [{"attributes": {"POSITION": 0}}]}], "nodes": [{"mesh": 0}]}
+END
+    jq -n '{bodies: [{surfaces: [{type: "sphere"}], maps: [{type: "translate", velocity: [1, 0, 0]}]},
+                     {surfaces: [{type: "mesh", file: "roof.gltf"}],
+                      maps: [{type: "translate", offset: [[0, 0, 3]]}]}]}' >scene.json
+    run -0 "$IMPINGE" solve scene.json --gamma 1e-2 --proof receipt
+    grep -aqx "file $(sha256sum <corners.bin | cut -c 1-64) corners.bin" receipt
+    run -0 "$IMPINGE" solve scene.json --gamma 1e-2 --proof isolated --isolate all
+    diff <(grep -a '^file ' receipt) <(grep -a '^file ' isolated)
+    run -0 verify receipt scene.json --quiet
+    printf x >>corners.bin
+    run -3 verify receipt scene.json
+    [ "$output" = "stale: the file corners.bin has changed" ]
+}
+
 @test "what cannot be read again is no receipt" {
     printf 'v 0 0 3\nv 1 0 3\nv 0 1 3\nf 1 2 3\n' >roof.obj
     echo '{"bodies": [{"surfaces": [{"type": "sphere"}]},
