@@ -170,6 +170,7 @@ core_bounds = \
     core/bounds/normal_field.c core/bounds/normal_field.h \
     core/bounds/normal_height.c core/bounds/normal_height.h \
     core/bounds/normal_turn.c core/bounds/normal_turn.h \
+    core/bounds/dividing_choice.c core/bounds/dividing_choice.h \
     core/bounds/dividing_surface.c core/bounds/dividing_surface.h core/bounds/tangent_forms.h \
     core/bounds/quadratic.h \
     core/bounds/separation.c core/bounds/separation.h \

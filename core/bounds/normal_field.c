@@ -141,13 +141,14 @@ PAD_COVERS(SLACK_PAD, 4 + 20 + 14 + 16); /* cross; of second order, times nu; su
 PAD_COVERS(MU_PAD, 4 + 10);              /* slopes and w, terms of second order */
 PAD_COVERS(LENGTH_PAD, (2 * (14 + 1) + 1 + 2 + 1) / 2 + 1 + 1); /* lean^2; sums; root; product */
 
-/* Computes the lemma's slack and the length of n. False: they are too large. */
+/* Computes the lemma's slack and the length of n; `third` bounds the terms of third order. False:
+ * they are too large. */
 static bool slack_and_length(const difference *r, const frame *f, const local_slice *a,
-                             const local_slice *b, const turns *m, const path *x,
+                             const local_slice *b, const turns *m, const path *x, double third,
                              double *slack_upper, double *length_upper)
 {
     double slack = QUADRATIC_UNDERFLOW + weighted(f->n, r->slack) + edges_upper(r, f->n) +
-                   cross_upper(a, b, &m->a, &m->b) + cubic_upper(a, &m->a) + cubic_upper(b, &m->b) +
+                   cross_upper(a, b, &m->a, &m->b) + third +
                    squared_time_upper(a, &m->a, m->w, x, -1) +
                    squared_time_upper(b, &m->b, m->w, x, 1) + fabs(dot2(m->w, &x->bend));
     double size = weighted(f->n, r->magnitude);
@@ -195,27 +196,44 @@ static bool tilt_frame(frame *f, const double tilt[2])
     return true;
 }
 
+/* Makes the frame, the slices and path in it, and how the field turns. False: there is none. */
+static bool begin(const difference *r, vec3 axis, frame *f, local_view *v, turns *m)
+{
+    if (!normal_frame_between(r, axis, f)) return false;
+    *v = view_in(f, r);
+    if (!normal_turns_choose(f, &v->a, &v->b, &v->x, m)) return false;
+    if (m->tilt[0] == 0 && m->tilt[1] == 0) return true;
+    if (!tilt_frame(f, m->tilt)) return false;
+    *v = view_in(f, r);
+    return true;
+}
+
+/* Whether terms of third order, and not remainders, hide the gap between two faces. */
+static bool is_of_third_order(const difference *r, const frame *f, double third)
+{
+    const double rest = weighted(f->n, r->slack) + edges_upper(r, f->n);
+    return f->side[0] == TOUCH_FACE && f->side[1] == TOUCH_FACE &&
+           third > TUNING_THIRD_OF_REMAINDER * rest;
+}
+
 bool normal_field_cut(const difference *r, vec3 axis, double gamma_clear, w_range *s,
                       gap_lines *lines)
 {
     frame f;
+    local_view v;
     turns m;
-    if (!normal_frame_between(r, axis, &f)) return true;
-    local_view v = view_in(&f, r);
-    if (!normal_turns_choose(&f, &v.a, &v.b, &v.x, &m)) return true;
-    if (m.tilt[0] != 0 || m.tilt[1] != 0) {
-        if (!tilt_frame(&f, m.tilt)) return true;
-        v = view_in(&f, r);
-    }
-    const height h = height_of(r, &v.a, &v.b, &m, &v.x);
     height_line line;
-    if (!height_least(&h, lines != NULL, &line)) return true;
     double slack, length;
-    if (!slack_and_length(r, &f, &v.a, &v.b, &m, &v.x, &slack, &length)) return true;
+    if (!begin(r, axis, &f, &v, &m)) return true;
+    const double third = cubic_upper(&v.a, &m.a) + cubic_upper(&v.b, &m.b);
+    if (is_of_third_order(r, &f, third))
+        return dividing_surface_cut(r, &f, &v, &m, gamma_clear, s, lines);
+    const height h = height_of(r, &v.a, &v.b, &m, &v.x);
+    if (!height_least(&h, lines != NULL, &line)) return true;
+    if (!slack_and_length(r, &f, &v.a, &v.b, &m, &v.x, third, &slack, &length)) return true;
     const double low = line.middle - slack, limit = length * gamma_clear;
     if (lines != NULL) gap_lines_add(lines, low, line.drift, length);
     if (!w_range_cut(s, low, line.drift, limit)) return false;
-    const double third = cubic_upper(&v.a, &m.a) + cubic_upper(&v.b, &m.b);
     const bool is_hidden = line.middle + fabs(line.drift) > limit;
     if (!(is_hidden && TUNING_THIRD_SHARE * third > slack)) return true;
     return dividing_surface_cut(r, &f, &v, &m, gamma_clear, s, lines);

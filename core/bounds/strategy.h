@@ -40,8 +40,9 @@
  *                           else as often as it pays                lies in the other's concave
  *                                                                   side, or two edges bend towards
  *                                                                   each other
- *   dividing surface        after a turning axis that does not cut  surfaces in one another share
- *                           all, where terms of third order are     terms of third order, too
+ *   dividing surface        instead of a turning axis between two   surfaces in one another share
+ *                           faces, or after one that does not cut   terms of third order and of
+ *                           all, where terms of third order are     fourth, too
  *                           what hides the gap
  *   one-sided distance      no axis separates the pair from the     what slides along a surface has
  *                           start of its nodes' times; its parents  many neighbours there, and the

@@ -135,8 +135,11 @@ TUNING_NUMBER(TUNING_GJK_GAP_OF_BOUND, 0.999);
 /* Normals are nearly parallel if the cosine of their angle exceeds this: 25 degrees. Must be
  * below 1. */
 TUNING_NUMBER(TUNING_FIELD_COSINE, 0.9);
-/* A dividing surface of third order is tried where a turning axis does not cut all, and this times
- * its terms of third order is more than all that is subtracted (set: saddles). */
+/* Between two faces, a dividing surface takes the turning axis' place where that leaves terms of
+ * third order that are more than this times the remainders along it (set: saddles). */
+TUNING_INTEGER(TUNING_THIRD_OF_REMAINDER, 2);
+/* Else it is tried where a turning axis does not cut all, and this times its terms of third order
+ * is more than all that is subtracted. */
 TUNING_INTEGER(TUNING_THIRD_SHARE, 2);
 /* A turning axis is tried after fixed axes while one trial in this many cuts more than they do. */
 TUNING_INTEGER(TUNING_FIELD_SHARE, 8);

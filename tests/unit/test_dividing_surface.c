@@ -37,20 +37,23 @@ static void random_side(uint64_t *state, local_slice *s)
 
 static dividing random_dividing(uint64_t *state)
 {
-    const double slope = random_size(state), bend = random_size(state), third = random_size(state);
+    const double slope = random_size(state), bend = random_size(state);
+    const double third = random_size(state), fourth = random_size(state);
     dividing h;
     for (int i = 0; i < 2; ++i) h.slope[i] = random_within(state, slope);
     h.k =
         (form){random_within(state, bend), random_within(state, bend), random_within(state, bend)};
     for (int k = 0; k < 4; ++k) h.c.x[k] = random_within(state, third);
+    for (int k = 0; k < 5; ++k) h.q.x[k] = random_within(state, fourth);
     return h;
 }
 
 /* h(p). */
 static double value_at(const dividing *h, const double *p)
 {
+    const form twice = quartic_by_two(&h->q, p, p);
     return h->slope[0] * p[0] + h->slope[1] * p[1] + 0.5 * form_of(&h->k, p, p) +
-           cubic_of(&h->c, p, p, p) / 6;
+           cubic_of(&h->c, p, p, p) / 6 + form_of(&twice, p, p) / 24;
 }
 
 /* f of a point of one side, at random parameters; *quadratic: its part as computed; *size grows by
@@ -97,7 +100,7 @@ START_TEST(what_is_left_out_of_a_height_is_within_its_bound)
         const double rate = random_size(&state);
         const double mw[2] = {random_within(&state, rate), random_within(&state, rate)};
         const place p[2] = {place_at(&h, &v.x, -1), place_at(&h, &v.x, 1)};
-        const height to = height_between(&h, p, &v, mw);
+        const height to = height_between(p, &v, mw);
         const double w = suite_end_or_inside(&state), left = left_out_upper(&h, p, &v, mw);
         double sum = to.offset + (to.drift + to.bend * w) * w, size = 1;
         const double a = height_at(&state, &h, &v, mw, w, 0, &to.parts, &sum, &size);
@@ -111,4 +114,30 @@ START_TEST(what_is_left_out_of_a_height_is_within_its_bound)
 }
 END_TEST
 
-SUITE_MAIN("dividing_surface", what_is_left_out_of_a_height_is_within_its_bound)
+/* Two equal surfaces, one on the other: h follows them up to terms of fifth order. */
+START_TEST(the_surface_chosen_takes_off_terms_of_third_and_fourth_order)
+{
+    uint64_t state = suite_seed() + 2;
+    for (int k = 0; k < suite_times(10000); ++k) {
+        const frame f = {.side = {TOUCH_FACE, TOUCH_FACE}};
+        const form bend = {random_within(&state, 1), random_within(&state, 1),
+                           random_within(&state, 1)};
+        const quartic none = {{0, 0, 0, 0, 0}};
+        local_view v = {.x = {{{0, 0}, 0}, {{0, 0}, 0}, {{0, 0}, 0}}};
+        random_side(&state, &v.a);
+        v.a.l[0] = (local){{1, random_within(&state, 0.5)}, 0};
+        v.a.l[1] = (local){{random_within(&state, 0.5), 1}, 0};
+        for (int j = UU; j <= VV; ++j) v.a.q[j] = random_local(&state, 0.1);
+        v.b = v.a;
+        dividing h;
+        ck_assert(dividing_choose(&f, &v, &bend, &h));
+        const place p = place_at(&h, &v.x, 1);
+        ck_assert_double_lt(third_upper(&p, &v.a), 1e-14);
+        ck_assert_double_lt(fourth_upper(&h.q, &p, &v.a), 1e-14);
+        ck_assert_double_gt(fourth_upper(&none, &p, &v.a), 1e-12);
+    }
+}
+END_TEST
+
+SUITE_MAIN("dividing_surface", what_is_left_out_of_a_height_is_within_its_bound,
+           the_surface_chosen_takes_off_terms_of_third_and_fourth_order)

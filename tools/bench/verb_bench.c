@@ -283,7 +283,7 @@ const verb verb_bench = {
     .summary = "Measure the methods side by side",
     .details = "Each SET of scenes (all, if none is named) is answered by the default method and, "
                "but for the last\n"
-               "eight, by the paper's, each scene afresh:\n"
+               "nine, by the paper's, each scene afresh:\n"
                "\n"
                "  figure7  two spheres, ever nearer, proved not to touch\n"
                "  bicubic  100 pairs of random moving patches, with reference answers\n"
@@ -293,6 +293,7 @@ const verb verb_bench = {
                "  moving   spheres in flight, at ever smaller gamma\n"
                "  clearance  least distances, and whether 0.99 of them is kept\n"
                "  conformal  machine parts that slide in each other, ever tighter\n"
+               "  saddles  random patches, and saddles that lie in one another, ever nearer\n"
                "  parameters  all values of 1 to 4 joints at once, required ever more closely\n"
                "  everyday  machines as they are built, each with a goal; ends with status 6 where "
                "one is missed\n"
