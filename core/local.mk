@@ -52,7 +52,9 @@ core_surface = \
     core/surface/surface_motion.c core/surface/surface_net.c core/surface/surface_pose.c \
     core/surface/course.h core/surface/course_line.c core/surface/course_line.h \
     core/surface/feature.c core/surface/feature.h \
-    core/surface/half_plane.c core/surface/half_plane.h \
+    core/surface/half_plane.c core/surface/half_plane.h core/surface/screw_piece.c \
+    core/surface/screw_piece.h core/surface/screw_rest.c core/surface/screw_section.c \
+    core/surface/screws.h \
     core/surface/surface_course.c core/surface/surface_orbit.c core/surface/surface_pair_slip.c \
     core/surface/surface_rate.c core/surface/surface_slip.c \
     core/surface/time_model.h core/surface/surface_shift.c core/surface/surface_shift.h \

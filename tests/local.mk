@@ -38,6 +38,7 @@ check_suites = \
     tests/unit/test_slip_pairs \
     tests/unit/test_screw_slips \
     tests/unit/test_half_planes \
+    tests/unit/test_screw_pieces \
     tests/unit/test_orbits \
     tests/unit/test_shared_solids \
     tests/unit/test_time_models \
@@ -369,6 +370,7 @@ check_LTLIBRARIES = \
     tests/plugins/liar_truthful_symmetry.la \
     tests/plugins/liar_truthful_screw.la \
     tests/plugins/liar_screw_hand.la \
+    tests/plugins/liar_screw_slit.la \
     tests/plugins/liar_screw.la \
     tests/plugins/liar_truthful_net.la \
     tests/plugins/map_rate_negative.la \
@@ -479,6 +481,7 @@ tests_plugins_liar_truthful_distance_la_LDFLAGS = $(test_plugin_ldflags)
 tests_plugins_liar_truthful_symmetry_la_LDFLAGS = $(test_plugin_ldflags)
 tests_plugins_liar_truthful_screw_la_LDFLAGS = $(test_plugin_ldflags)
 tests_plugins_liar_screw_hand_la_LDFLAGS = $(test_plugin_ldflags)
+tests_plugins_liar_screw_slit_la_LDFLAGS = $(test_plugin_ldflags)
 tests_plugins_liar_screw_la_LDFLAGS = $(test_plugin_ldflags)
 tests_plugins_liar_truthful_net_la_LDFLAGS = $(test_plugin_ldflags)
 tests_plugins_map_rate_negative_la_LDFLAGS = $(test_plugin_ldflags)

@@ -107,7 +107,9 @@ static bool misses(const half_plane *h, const node *n)
     if (h == NULL || n->many != NULL || !n->bounded || n->is_bare) return false;
     return height_lower(n, h->across, 1) > h->across_hi ||
            height_lower(n, h->across, -1) > -h->across_lo ||
-           height_lower(n, h->along, -1) > -h->along_lo;
+           height_lower(n, h->along, -1) > -h->along_lo ||
+           (h->height_hi < INFINITY && (height_lower(n, h->up, 1) > h->height_hi ||
+                                        height_lower(n, h->up, -1) > -h->height_lo));
 }
 
 bool candidate_pair_leaves_out(const candidate_pair *both, const node *a, const node *b)

@@ -127,6 +127,7 @@ imp_code candidates_frame(candidate_list *list, const candidate_list *whole, siz
                           imp_stats *stats, imp_error *error)
 {
     collection all = {.scene = scene,
+                      .gamma_clear = search->gamma_clear,
                       .slip_most = collection_slip_most(options, search),
                       .may_halve = search->may_halve,
                       .options = options,

@@ -10,6 +10,7 @@
 #include "core/bounds/time_window.h"
 #include "core/broad_phase/frame_list.h"
 #include "core/common/array.h"
+#include "core/surface/screws.h"
 
 /* Pairs in the frame that both surfaces move in, and pairs searched at one moment
  * ===============================================================================
@@ -107,6 +108,26 @@ static imp_code find_frame(collection *all, frame_list *frames, const candidate 
     return IMP_SUCCESS;
 }
 
+/* Like surface_pair_slip, for a pair of which one moves along the other by its screw motions. No
+ * verifier knows these. */
+static imp_code find_screw_slip(collection *all, candidate *const side[2],
+                                const screw_rest_times *at, const imp_model bare[2][3],
+                                double *slip, imp_error *error)
+{
+    const surface *const s[2] = {tree_surface(side[0]->tree), tree_surface(side[1]->tree)};
+    screw_rest rest;
+    double near = all->gamma_clear;
+    int asked = 0;
+    const imp_status status = surface_screw_rest(s, bare, at, &rest, &asked);
+    if (status != IMP_STATUS_OK) return distance_fault(s[asked], status, error);
+    if (!(rest.slip < INFINITY)) return IMP_SUCCESS;
+    tree *const t[2] = {side[0]->tree, side[1]->tree};
+    imp_code code = IMP_SUCCESS;
+    if (!(near < INFINITY)) code = frames_some_distance(t, at->moment, &near, error);
+    if (code == IMP_SUCCESS && near <= rest.near) *slip = rest.slip;
+    return code;
+}
+
 /* Bounds in *slip how much the distance of the pair of these frames changes with time. */
 static imp_code find_slip(collection *all, candidate *const side[2], time_window *times,
                           double *slip, imp_error *error)
@@ -128,6 +149,10 @@ static imp_code find_slip(collection *all, candidate *const side[2], time_window
         region_make((double[3]){0, 0, times->lo}, (double[3]){0, 0, times->hi});
     int asked = 1;
     const imp_status status = surface_pair_slip(s, bare, &all_times, times->lo, slip, &asked);
+    const screw_rest_times at = {&all_times, times->lo, 0.5 * all->slip_most};
+    if (status == IMP_STATUS_OK && all->may_halve && !(*slip <= all->slip_most) &&
+        (surface_is_screw_piece(s[0]) || surface_is_screw_piece(s[1])))
+        return find_screw_slip(all, side, &at, bare, slip, error);
     if (status == IMP_STATUS_OK) return IMP_SUCCESS;
     const surface_message what = surface_status_message(s[asked], status);
     if (status == SURFACE_BAD_SYMMETRY)

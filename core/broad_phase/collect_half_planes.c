@@ -8,6 +8,8 @@
 #include "core/base/status.h"
 #include "core/broad_phase/frame_list.h"
 #include "core/common/array.h"
+#include "core/surface/screws.h"
+#include "core/witness/witness.h"
 
 /* Pairs of which a half plane stands for all
  * ==========================================
@@ -47,6 +49,16 @@ static imp_code add_half_plane(collection *all, frame_list *frames, size_t *of_s
     return IMP_SUCCESS;
 }
 
+imp_code frames_some_distance(tree *const t[2], double time, double *distance_upper,
+                              imp_error *error)
+{
+    const node *const roots[2] = {tree_root(t[0]), tree_root(t[1])};
+    witness w;
+    const imp_code code = witness_seek(roots, time, INFINITY, &w, error);
+    if (code == IMP_SUCCESS) *distance_upper = w.gap_upper;
+    return code;
+}
+
 imp_code frames_halve_pair(collection *all, frame_list *frames, size_t k, double slip,
                            imp_error *error)
 {
@@ -69,7 +81,14 @@ imp_code frames_halve_pair(collection *all, frame_list *frames, size_t k, double
     const half_plane_boxes boxes = {{lo[0], lo[1]}, {hi[0], hi[1]}};
     const imp_region over = region_make((double[3]){0, 0, times.lo}, (double[3]){0, 0, times.hi});
     int asked;
-    const imp_status status = surface_half_plane(s, &boxes, &over, of, &more, &asked);
+    imp_status status = surface_half_plane(s, &boxes, &over, of, &more, &asked);
+    if (status == IMP_STATUS_OK && !(more < INFINITY) && surface_is_screw_piece(s[0]) &&
+        surface_is_screw_piece(s[1])) {
+        double near = all->gamma_clear;
+        if (!(near < INFINITY)) code = frames_some_distance(t, times.lo, &near, error);
+        if (code != IMP_SUCCESS) return code;
+        status = surface_screw_section(s, &boxes, &over, near, of, &more, &asked);
+    }
     if (status != IMP_STATUS_OK) return distance_fault(s[asked], status, error);
     slip = sum_upper(slip, more);
     if (!(slip <= all->slip_most)) return IMP_SUCCESS;

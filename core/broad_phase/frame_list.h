@@ -36,6 +36,11 @@ bool frames_may_have_half_planes(const collection *all, const candidate_pair *p)
 imp_code frames_halve_pair(collection *all, frame_list *frames, size_t k, double slip,
                            imp_error *error);
 
+/* Computes how far two points of these surfaces, whose roots are made, are from each other at this
+ * time, at most. */
+imp_code frames_some_distance(tree *const t[2], double time, double *distance_upper,
+                              imp_error *error);
+
 /* Frees the half planes of frames that the list does not take. */
 void frames_forget_half_planes(candidate_list *list, const frame_list *frames);
 

@@ -65,8 +65,10 @@ static bool is_nearest(const imp_query *query)
 }
 
 /* Half planes are left out where a verifier, or a box of values, sees each pair of points. */
-static candidate_search search_of(const imp_query *query, double near)
+static candidate_search search_of(const imp_query *query)
 {
+    const double near =
+        query->clearance == NULL ? query->impact.gamma_clear : clearance_near(query->clearance);
     return (candidate_search){
         .gamma_clear = near,
         .is_nearest = is_nearest(query),
@@ -80,11 +82,9 @@ static candidate_search search_of(const imp_query *query, double near)
  * surfaces are candidates, however far apart, but where there are many. */
 imp_code query_collect(imp_query *query, double start, imp_error *error)
 {
-    const double near =
-        query->clearance == NULL ? query->impact.gamma_clear : clearance_near(query->clearance);
     collecting c = {query, query->stats.seconds, start, IMP_REASON_NONE};
     const candidate_limit limit = {limit_is_reached, limit_is_near, &c};
-    const candidate_search search = search_of(query, near);
+    const candidate_search search = search_of(query);
     const imp_code code = candidates_find(&query->candidates, query->scene, &query->options,
                                           &search, &limit, &query->stats, error);
     query->impact.gamma_clear = query_searched_gamma_clear(query, query->gamma_clear);
@@ -101,7 +101,7 @@ imp_code query_collect_part(imp_query *part, const imp_query *whole, size_t inde
     const size_t first = parts->first[index], count = parts->first[index + 1] - first;
     collecting c = {part, 0, clock_seconds(), IMP_REASON_NONE};
     const candidate_limit limit = {limit_is_reached, limit_is_near, &c};
-    const candidate_search search = search_of(whole, 0);
+    const candidate_search search = search_of(whole);
     candidate_list framed = {0};
     imp_stats shared = {0};
     imp_code code = candidates_frame(&framed, &whole->candidates, first, count, part->scene,

@@ -66,7 +66,7 @@ static double greatest(const double k[3], const imp_model x[3])
  * Of a point within s of such an x, less than 2 s more, as |k|, |e| < 2. Roundings: those of the
  * inverse length 8, products and sums of non-negative numbers, 8 at most. */
 PAD_COVERS(32, 8 + 8);
-static bool half_plane_of(const feature *line, double reach, double s, half_plane *h)
+bool half_plane_hold(const feature *line, double reach, double s, half_plane *h)
 {
     double k[3], e[3];
     imp_model direction[3];
@@ -87,6 +87,9 @@ static bool half_plane_of(const feature *line, double reach, double s, half_plan
     h->across_lo = difference_lower(c.lo, room);
     h->across_hi = sum_upper(c.hi, room);
     h->along_lo = difference_lower(a.lo, behind);
+    memset(h->up, 0, sizeof h->up);
+    h->height_lo = -INFINITY;
+    h->height_hi = INFINITY;
     return h->across_lo > -INFINITY && h->across_hi < INFINITY && h->along_lo > -INFINITY;
 }
 
@@ -128,7 +131,7 @@ imp_status surface_half_plane(const surface *const s[2], const half_plane_boxes 
     for (int k = 0; k < 2; ++k) {
         const double reach = feature_reach_upper(boxes->lo[k], boxes->hi[k], f[a].center);
         const double more = k == a ? 0 : way;
-        if (!half_plane_of(&f[a], sum_upper(reach, more), more, &of[k])) return IMP_STATUS_OK;
+        if (!half_plane_hold(&f[a], sum_upper(reach, more), more, &of[k])) return IMP_STATUS_OK;
     }
     if (way >= 0) *slip = 2 * way;
     return IMP_STATUS_OK;

@@ -13,7 +13,7 @@ bool symmetry_is_sane(const imp_symmetry *found)
     double most = 0;
     if (found->kind < IMP_SYMMETRY_ABOUT_POINT || found->kind > IMP_SYMMETRY_SCREW_LEFT)
         return false;
-    if (symmetry_is_screw(found) && found->is_closed != 0) return false;
+    if (symmetry_is_screw(found) && found->is_closed > IMP_SYMMETRY_CLOSED) return false;
     const bool is_ball = found->kind == IMP_SYMMETRY_ABOUT_POINT;
     for (int i = 0; i < 3; ++i) {
         if (!isfinite(found->center[i]) || !isfinite(found->axis[i])) return false;
@@ -46,7 +46,8 @@ imp_status surface_closed_symmetry(const surface *s, imp_symmetry *found)
     if (!IMP_OFFERS(s->type, symmetry) || s->piece_count > 1) return IMP_STATUS_UNBOUNDED;
     const imp_status status = surface_symmetry(s, found);
     if (status != IMP_STATUS_OK) return status;
-    if ((found->is_closed & IMP_SYMMETRY_CLOSED) == 0) return IMP_STATUS_UNBOUNDED;
+    if ((found->is_closed & IMP_SYMMETRY_CLOSED) == 0 || symmetry_is_screw(found))
+        return IMP_STATUS_UNBOUNDED;
     if (found->kind != IMP_SYMMETRY_ABOUT_POINT) found->kind = IMP_SYMMETRY_ABOUT_LINE;
     return IMP_STATUS_OK;
 }

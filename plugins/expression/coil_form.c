@@ -230,6 +230,17 @@ static bool find_lead(coil_form *c, const linear_form *phi, const linear_form *z
     return is_surely_not_0(c->p) && is_surely_not_0(c->kappa);
 }
 
+/* Whether phi and zeta are each given by a parameter of its own. */
+static void find_around(coil_form *c, const linear_form *phi, const linear_form *zeta)
+{
+    c->around = -1;
+    for (int j = 0; j < 2; ++j) {
+        if (phi->a[!j] != 0 || zeta->a[j] != 0) continue;
+        c->around = j;
+        c->turning = times(phi->scale, near_exact(phi->a[j]));
+    }
+}
+
 static bool find_along(const builder *b, const uint16_t out[3], int along_axis, bool is_mirrored,
                        coil_form *c)
 {
@@ -245,6 +256,7 @@ static bool find_along(const builder *b, const uint16_t out[3], int along_axis, 
     c->radius = radius[0];
     if (!linear_of(&s, angle[0], &phi) || !linear_of(&s, out[along_axis], &zeta)) return false;
     if (!judge_radius(&s, c->radius) || !s.has_w || !find_lead(c, &phi, &zeta)) return false;
+    find_around(c, &phi, &zeta);
     s.harmonic = over(c->p, c->kappa);
     s.judges = true;
     s.looks = LOOKS;

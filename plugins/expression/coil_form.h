@@ -24,7 +24,9 @@ typedef struct coil_form {
     double center[3]; /* length */
     double w[2];      /* a, b; not both 0 */
     near_constant p, kappa, rest;
-    uint16_t radius; /* the operation that computes R */
+    int around; /* phi depends on this parameter alone, and zeta on the other one; or -1 */
+    near_constant turning; /* d phi / d of it, then; rad */
+    uint16_t radius;       /* the operation that computes R */
     /* R changes no more if w is moved by whole turns of phi, k (2 pi p / kappa), than if each w in
      * it is moved by some |k| (2 pi p / kappa) times this. */
     double drift;

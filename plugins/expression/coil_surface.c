@@ -64,6 +64,38 @@ static bool find_root(coil_surface *s, double period)
     return s->base.root < INFINITY;
 }
 
+/* At least |R'| over one period, where it is moved as slack says. */
+static double steepest_upper(const coil_surface *s, double period)
+{
+    double most = 0;
+    for (int k = 0; k < PARTS; ++k) {
+        const double lo = period * k / PARTS, hi = period * (k + 1) / PARTS;
+        most = imp_larger(most, radius_over(s, lo - s->slack, hi + s->slack).rate[0]);
+    }
+    return most;
+}
+
+/* Lemma. Let phi be given by one parameter that turns it by 2 pi (1 - e) at least, and zeta by the
+ * other one. A screw by the angle A takes a point to one of the same w at phi + A. If its zeta is
+ * one of the surface's, the surface has a point of that zeta at phi + A - 2 pi k, |k| <= |A| / 2
+ * pi + 1, but for 2 pi e; its w differs by k turns of phi, so that R does by steepest |k| P drift
+ * at most, P the period. The lead is off by its error and a rounding, 2^-52 of it. Each of these
+ * is at most a quarter of IMP_SCREW_SLACK: of the radius for e, 2 pi e < 2^-46, of the lead for a
+ * turn. */
+static bool goes_around(const coil_surface *s, const double lo[2], const double hi[2],
+                        near_constant lead, double period)
+{
+    const coil_form *f = &s->form;
+    if (f->around < 0) return false;
+    const double width = imp_sum_down(hi[f->around] - lo[f->around]);
+    const double turned =
+        imp_round_down(imp_sum_down(fabs(f->turning.value) - f->turning.error) * width);
+    const double room = 0.25 * IMP_SCREW_SLACK * s->lead;
+    const double moved = imp_round_up(imp_round_up(steepest_upper(s, period) * period) * f->drift);
+    return turned >= IMP_TWO_PI_UPPER * (1 - 0x1p-49) && moved <= room &&
+           imp_sum_up(lead.error + 0x1p-52 * s->lead) <= room;
+}
+
 /* Lemma. Let W be the coil's points whose phase is in a range of a whole period that holds those of
  * all points of the surface. A screw motion of exactly this lead keeps phases, so that it takes the
  * surface into W; one of the rounded lead is off by at most lead_off within IMP_SCREW_TURNS turns,
@@ -101,7 +133,9 @@ bool coil_surface_begin(coil_surface *s, const double lo[2], const double hi[2])
         return false;
     s->is_left = (lead.value < 0) != f->is_mirrored;
     s->form.center[f->along] = 0;
-    return find_root(s, turn);
+    if (!find_root(s, turn)) return false;
+    s->is_closed = goes_around(s, lo, hi, lead, turn);
+    return true;
 }
 
 /* --- Callbacks -------------------------------------------------------------------------------- */
@@ -125,6 +159,7 @@ imp_status coil_surface_symmetry(const coil_surface *s, imp_symmetry *symmetry)
 {
     symmetry->kind = s->is_left ? IMP_SYMMETRY_SCREW_LEFT : IMP_SYMMETRY_SCREW_RIGHT;
     symmetry->axis[s->form.along] = s->lead;
+    if (s->is_closed) symmetry->is_closed = IMP_SYMMETRY_CLOSED;
     memcpy(symmetry->center, s->form.center, sizeof symmetry->center);
     return IMP_STATUS_OK;
 }

@@ -18,6 +18,7 @@ typedef struct coil_surface {
     near_constant inverse;            /* of the greater of w's coefficients */
     double slack;                     /* room of a phase for whole turns */
     bool is_left;                     /* the screw is left-handed */
+    bool is_closed;                   /* it goes all around, and ends in planes */
     double lead, lead_off;            /* of a turn, rounded, and room for that; length */
 } coil_surface;
 

@@ -37,6 +37,7 @@ typedef struct thread_instance {
     double radius, root; /* root: at most the least radius, > 0 */
     double starts, height, center[3];
     near_constant along_v, along_z; /* 2 pi height / pitch, 2 pi / pitch; rad, rad/length */
+    bool is_closed;                 /* the lead is exact */
     double lead, lead_off; /* starts * pitch, rounded, and room for that; 0: no screw is claimed */
     size_t count;
     double profile[];
@@ -77,6 +78,7 @@ static void set_lead(thread_instance *s, double pitch)
     s->lead = s->starts * pitch;
     const double length = fabs(s->lead);
     const bool is_exact = fma(s->starts, pitch, -s->lead) == 0;
+    s->is_closed = is_exact;
     s->lead_off = is_exact ? 0 : length * (0x1p-52 * IMP_SCREW_TURNS);
     if (length >= THREAD_SHORT && length <= THREAD_FAR && s->lead_off <= ROOM_MOST * s->radius)
         return;
@@ -178,6 +180,7 @@ static imp_status thread_symmetry(const void *self, imp_symmetry *symmetry)
     if (s->lead == 0) return IMP_STATUS_UNBOUNDED;
     symmetry->kind = s->lead > 0 ? IMP_SYMMETRY_SCREW_RIGHT : IMP_SYMMETRY_SCREW_LEFT;
     symmetry->axis[2] = fabs(s->lead);
+    if (s->is_closed) symmetry->is_closed = IMP_SYMMETRY_CLOSED;
     memcpy(symmetry->center, s->center, sizeof s->center);
     return IMP_STATUS_OK;
 }

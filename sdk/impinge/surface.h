@@ -295,13 +295,18 @@ enum {
 };
 
 #define IMP_SCREW_TURNS 0x1p10
+#define IMP_SCREW_SLACK 0x1p-44
 
 /* What a symmetry claims besides, of the surface itself over all u and v of its domain; the sum of
- * any of these; 0 for screws.
+ * any of these; of screws CLOSED alone.
  *
  * CLOSED: each rotation of the kind maps the surface onto itself. A whole cylinder is closed, half
  * a cylinder is not (a full turn needs IMP_TWO_PI_UPPER). The distance of two bodies that only turn
- * about closed axes never changes.
+ * about closed axes never changes. A screw motion takes a point of a surface with screws that is
+ * CLOSED to another point of it, unless that is higher or lower along the line than all of the
+ * surface: a thread that goes all around, and ends in planes across the line. What is rounded may
+ * move the other point by IMP_SCREW_SLACK times the sum of the image's distance from the center and
+ * of the lead for each turn and one more.
  *
  * ORBIT_U: points of the same v and t are taken to each other by rotations about the line through
  * the center along the axis (which then counts for ABOUT_POINT, too); ORBIT_V: points of the same u

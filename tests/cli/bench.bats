@@ -139,15 +139,15 @@ counts() { jq 'del(.. | .seconds?)' <<<"$output"; }
 }
 
 @test "parts that slide are given the budget" {
-    run -0 "$IMPINGE" bench conformal --repeat 1 --max-pairs 100 --json
+    run -0 "$IMPINGE" bench conformal --repeat 1 --max-pairs 30 --json
     valid bench
     json '[.sets[0].cases[].case] == [
         ("shaft", "socket", "piston", "race", "ellipsoid", "thread", "thread by formula") as $part |
         ("c = " + ("0.1", "0.01", "0.001", ("1e-06" | select($part == "piston"))),
          ("placed", "carried") + ", c = 0.01") | "\($part), \(.)"]'
     json 'all(.sets[0].cases[].methods[]; .method == "models" and .verdicts.contact == 0 and
-        (.ended == 1) == (.pairs.max >= 100) and .pairs.max <= 102)'
-    json '[.sets[0].cases[].methods[0].ended] | add | . > 8 and . < 32'
+        (.ended == 1) == (.pairs.max >= 30) and .pairs.max <= 32)'
+    json '[.sets[0].cases[].methods[0].ended] | add | . > 4 and . < 32'
 }
 
 @test "everyday scenes keep the goals that were reached, as far as the budget lets see" {

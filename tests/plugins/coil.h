@@ -8,6 +8,13 @@
 /* A right-handed thread of lead 1, q = 2 + cos(u - 2 pi z) / 5, and distances from it: for plugins
  * beside this file to say what screw motions it has. */
 
+/* All around, or with a slit. */
+static inline void coil_slit_domain(const void *self, double lo[3], double hi[3])
+{
+    tiny_domain(self, lo, hi);
+    lo[0] = lo[1] = 0, hi[0] = 6, hi[1] = 2;
+}
+
 static inline void coil_domain(const void *self, double lo[3], double hi[3])
 {
     tiny_domain(self, lo, hi);
@@ -45,18 +52,20 @@ static inline imp_model coil_gap(const void *self, imp_model x, imp_model y, imp
 }
 IMP_DISTANCE_FORMULA(coil_gap)
 
-static inline imp_status coil_symmetry(uint32_t kind, double lead, imp_symmetry *found)
+static inline imp_status coil_symmetry(uint32_t kind, double lead, uint32_t is_closed,
+                                       imp_symmetry *found)
 {
     found->kind = kind;
+    found->is_closed = is_closed;
     found->axis[2] = lead;
     return IMP_STATUS_OK;
 }
 
-#define COIL_PLUGIN(NAME, KIND, LEAD)                                                              \
+#define COIL_PLUGIN(NAME, DOMAIN, KIND, LEAD, CLOSED)                                              \
     static imp_status symmetry_of(const void *self, imp_symmetry *found)                           \
     {                                                                                              \
         (void)self;                                                                                \
-        return coil_symmetry(KIND, LEAD, found);                                                   \
+        return coil_symmetry(KIND, LEAD, CLOSED, found);                                           \
     }                                                                                              \
     static const imp_surface_type coil_type = {                                                    \
         .struct_size = sizeof(imp_surface_type),                                                   \
@@ -67,7 +76,7 @@ static inline imp_status coil_symmetry(uint32_t kind, double lead, imp_symmetry 
         .example = NAME,                                                                           \
         .create = tiny_create,                                                                     \
         .destroy = tiny_destroy,                                                                   \
-        .domain = coil_domain,                                                                     \
+        .domain = DOMAIN,                                                                          \
         .eval = coil_formula_eval,                                                                 \
         .rate = coil_formula_rate,                                                                 \
         .include = coil_formula_include,                                                           \

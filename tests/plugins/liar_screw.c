@@ -3,4 +3,4 @@
 #include "coil.h"
 
 /* A lead that is 0.1 % too long. */
-COIL_PLUGIN("liar_screw", IMP_SYMMETRY_SCREW_RIGHT, 1.001);
+COIL_PLUGIN("liar_screw", coil_domain, IMP_SYMMETRY_SCREW_RIGHT, 1.001, 0);

@@ -3,4 +3,4 @@
 #include "coil.h"
 
 /* The wrong hand. */
-COIL_PLUGIN("liar_screw_hand", IMP_SYMMETRY_SCREW_LEFT, 1);
+COIL_PLUGIN("liar_screw_hand", coil_domain, IMP_SYMMETRY_SCREW_LEFT, 1, 0);

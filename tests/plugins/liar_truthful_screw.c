@@ -3,4 +3,4 @@
 #include "coil.h"
 
 /* The truth. */
-COIL_PLUGIN("liar_truthful_screw", IMP_SYMMETRY_SCREW_RIGHT, 1);
+COIL_PLUGIN("liar_truthful_screw", coil_domain, IMP_SYMMETRY_SCREW_RIGHT, 1, IMP_SYMMETRY_CLOSED);

@@ -249,6 +249,8 @@ START_TEST(only_screw_motions_of_this_lead_and_hand_do_not_slip)
     ck_assert(slip_of(&s, 3, -3 * 0.5 / turn) <= 1e-9);
     ck_assert(slip_of(&s, 3, 3 * 0.5 / turn) == INFINITY);
     s.is_closed = IMP_SYMMETRY_CLOSED;
+    ck_assert(symmetry_is_sane(&s));
+    s.is_closed = IMP_SYMMETRY_ORBIT_U;
     ck_assert(!symmetry_is_sane(&s));
 }
 END_TEST

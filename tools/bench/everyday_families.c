@@ -140,10 +140,10 @@ const everyday_family everyday_families[] = {
                                           "{'type':'translate','offset':[[@2,0,0]]}",
      BOND_NONE, 0, false, "123", 20000, "", ""},
     /* threads */
-    {"nut on its bolt", THREAD("~1", "2"), "", THREAD("1", "0.5"), SCREW, BOND_NONE, 0, false,
-     "123", 10000, "", "123"},
+    {"nut on its bolt", THREAD("~1", "2"), "", THREAD("1", "0.5"), SCREW, BOND_NONE, 0, false, FIVE,
+     1000, "", ""},
     {"nut on its bolt by formula", THREAD_BY_FORMULA("~1", "-2", "2"), "",
-     THREAD_BY_FORMULA("1", "-0.5", "0.5"), SCREW, BOND_NONE, 0, false, "12", 20000, "", "1"},
+     THREAD_BY_FORMULA("1", "-0.5", "0.5"), SCREW, BOND_NONE, 0, false, FIVE, 1000, "", ""},
     /* long and fast */
     {"cam and follower", CYLINDER("1", "1", "0.1,0,0"), TURN(Z_AXIS, "6"),
      PLANE("@1.1,-1,-1", "0,2,0", "0,0,2"), "", BOND_NONE, 0, false, FIVE, 500, "", ""},

@@ -61,14 +61,59 @@ static bool is_off(const subject *s, const double x[3], double t, double least)
     return count == 0;
 }
 
+static bool is_screw(const imp_symmetry *of)
+{
+    return of->kind == IMP_SYMMETRY_SCREW_RIGHT || of->kind == IMP_SYMMETRY_SCREW_LEFT;
+}
+
+/* Along the axis from the center, in leads. */
+static double height_of(const imp_symmetry *of, const double x[3])
+{
+    double most = 0, dot = 0, square = 0;
+    for (int i = 0; i < 3; ++i) most = fmax(most, fabs(of->axis[i]));
+    for (int i = 0; i < 3; ++i) {
+        dot += (x[i] - of->center[i]) / most * (of->axis[i] / most);
+        square += (of->axis[i] / most) * (of->axis[i] / most);
+    }
+    return dot / square;
+}
+
+enum { HEIGHTS = 16 };
+
+/* A screw motion that takes a point to some height between those of points of the surface. */
+static motion draw_screw_within(const subject *s, uint64_t *random, const imp_symmetry *of,
+                                const spot *at)
+{
+    double lo = height_of(of, at->x), hi = lo;
+    const double from = lo, hand = of->kind == IMP_SYMMETRY_SCREW_RIGHT ? 1 : -1;
+    for (int k = 0; k < HEIGHTS; ++k) {
+        spot other;
+        draw_point(random, &s->domain, 3, other.p);
+        other.p[2] = at->p[2];
+        for (int j = 0; j < 2 && k < 4; ++j)
+            other.p[j] = (k >> j & 1) != 0 ? s->domain.hi[j] : s->domain.lo[j];
+        if (!spot_evaluate(s, &other)) continue;
+        const double height = height_of(of, other.x);
+        lo = fmin(lo, height);
+        hi = fmax(hi, height);
+    }
+    motion m = motion_draw(random, of, 1);
+    double turns = lo + random_between(random, 0.001, 0.999) * (hi - lo) - from;
+    turns = fmin(fmax(turns, -IMP_SCREW_TURNS), IMP_SCREW_TURNS);
+    m.angle = hand * turns * 2 * acos(-1);
+    for (int i = 0; i < 3; ++i) m.shift[i] = turns * of->axis[i];
+    return m;
+}
+
 static bool judge(const subject *s, uint64_t *random, const imp_symmetry *of)
 {
     double middle[3], radius;
     spot at, found;
     draw_point(random, &s->domain, 3, at.p);
     if (!spot_evaluate(s, &at) || !spot_extent(s, at.p[2], middle, &radius)) return true;
-    motion m = motion_draw(random, of, radius);
-    memset(m.shift, 0, sizeof m.shift);
+    motion m =
+        is_screw(of) ? draw_screw_within(s, random, of, &at) : motion_draw(random, of, radius);
+    if (!is_screw(of)) memset(m.shift, 0, sizeof m.shift);
     double x[3] = {at.x[0], at.x[1], at.x[2]};
     motion_apply(&m, x);
     if (!spot_nearest(s, x, at.p[2], &found)) return true;
@@ -141,7 +186,8 @@ bool orbit_check(const subject *s, uint64_t *random, const imp_symmetry *of)
 bool closed_check(const subject *s, uint64_t *random, const imp_symmetry *of)
 {
     imp_symmetry rotations = *of;
-    if (of->kind != IMP_SYMMETRY_ABOUT_POINT) rotations.kind = IMP_SYMMETRY_ABOUT_LINE;
+    if (of->kind != IMP_SYMMETRY_ABOUT_POINT && !is_screw(of))
+        rotations.kind = IMP_SYMMETRY_ABOUT_LINE;
     for (int k = 0; k < POINTS; ++k)
         if (!judge(s, random, &rotations)) return false;
     return true;

@@ -5,7 +5,8 @@
 
 #include "tools/check/subject.h"
 
-/* That rotations of a symmetry with is_closed take points of the surface to points of it. A claim
+/* That rotations of a symmetry with is_closed take points of the surface to points of it, and screw
+ * motions those that they do not take beyond its ends. A claim
  * is refuted by a point that is taken away from the surface: boxes around all parts of the surface,
  * by its own bounds, show that. False: it is refuted. */
 bool closed_check(const subject *s, uint64_t *random, const imp_symmetry *of);

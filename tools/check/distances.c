@@ -119,7 +119,7 @@ static bool judge_symmetry(const subject *s, const imp_symmetry *found)
     }
     sane = sane && found->is_closed <= flags &&
            (is_ball || (found->is_closed & IMP_SYMMETRY_ORBIT_ALL) == 0) &&
-           (found->kind <= IMP_SYMMETRY_ACROSS_LINE || found->is_closed == 0);
+           (found->kind <= IMP_SYMMETRY_ACROSS_LINE || found->is_closed <= IMP_SYMMETRY_CLOSED);
     const bool has_axis = !is_ball || (found->is_closed & lines) != 0;
     sane = sane && (!has_axis || (most >= 1e-100 && most <= 1e100));
     return sane ||
