@@ -977,9 +977,12 @@ EXTRA_DIST += \
 # and bounds. With sanitizers also those scripts whose input reaches C in
 # ways of its own: looks of pictures, pages, terminals, files, budgets and many processes are the first
 # part's. AddressSanitizer handles stack overflows and ends of threads itself, before the command can.
+# test_lanes.c has all kernels a second time: it takes more than a minute to compile with sanitizers,
+# which see these kernels in all other suites.
 all_suites = $(if $(filter $(script_suites),$(TESTS)),$(release_suites)) $(TESTS)
 clang_suites = $(filter-out %.bats,$(TESTS))
-sanitized_suites = $(filter-out $(script_suites) \
+not_sanitized = tests/unit/test_lanes
+sanitized_suites = $(filter-out $(script_suites) $(not_sanitized) \
     $(patsubst %,tests/cli/%.bats,bench check check_manners check_proofs cli cli_list completion files \
       hostile hostile_hangs host host_cache host_lies matrix mpi page \
       parameters_view plot progress series simulate_rest simulate_scenes),$(TESTS))
@@ -989,7 +992,8 @@ check-all:
 check-clang:
 	$(MAKE) check TESTS='$(clang_suites)'
 check-sanitized:
-	IMPINGE_TEST_MULTIPLIER=$${IMPINGE_TEST_MULTIPLIER-0.1} $(MAKE) check TESTS='$(sanitized_suites)'
+	IMPINGE_TEST_MULTIPLIER=$${IMPINGE_TEST_MULTIPLIER-0.1} $(MAKE) check TESTS='$(sanitized_suites)' \
+	    check_PROGRAMS='$(filter-out $(not_sanitized),$(check_PROGRAMS))'
 
 # How many suites each of these runs, for tools/test.
 .PHONY: count-check count-check-all count-check-clang count-check-sanitized
