@@ -177,13 +177,13 @@ static double left_out_upper(const dividing *h, const place p[2], const local_vi
 /* Lemma (a dividing surface). Let o(w) be any moving point, and for a point x let p_i = t_i.(x -
  * o), z = n0.(x - o) and
  *
- *   f(x) = z + w m.p - h(p),   h a polynomial of fourth order, m, n0, t1, t2 any vectors.
+ *   f(x) = z + w m.p - h(p),   h a polynomial of at most fourth order, m, n0, t1, t2 any vectors.
  *
  * For points x of A and y of B at w, f(y) - f(x) is the mean of f's gradient along the way from x
  * to y times y - x. The gradient is n0 + sum_i (w m_i - h_i(p)) t_i, h_i being derivatives of h.
  * With mu_i >= |m_i| + |h_i| wherever |p_i| <= P_i, as it is for points of both surfaces and so
- * between them, its length is at most the |n| of normal_field.c's lemma. So |y - x| is at least
- * (f(y) - f(x)) / |n|.
+ * between them, its length is at most |n|, |n|^2 = |n0|^2 + 2 sum_i mu_i |n0.t_i| + (sum_i mu_i
+ * |t_i|)^2. So |y - x| is at least (f(y) - f(x)) / |n|.
  *
  * Let o be the middle of the way delta + drift w + bend w^2 from A's centre to B's, so that they
  * lie at -+ half of it. On one side p = c + L + T, with c = +- delta / 2, L the slopes times s, T
@@ -265,9 +265,13 @@ static bool slack_and_length(const difference *r, const frame *f, const dividing
         tilt += mu[i] * fabs(vec3_dot(f->n, f->t[i])) + mu[i] * (TILT_ROUNDING * UNIT_ROUNDOFF);
         lean += mu[i] * vec3_norm(f->t[i]);
     }
-    /* An underflow, below 2^-1074, is multiplied by three lengths: together less than
-     * QUADRATIC_UNDERFLOW. */
-    if (!(size < 0x1p400 && far[0] < 0x1p150 && far[1] < 0x1p150)) return false;
+    /* A product of two lengths that underflows loses less than 2^-1074. By a component of H, C L or
+     * Q L L that is at most mu_i / far_j, and size has 8 mu_i far_i: with far > 2^-500 all such
+     * losses together are below u size. One of no such factor is multiplied by three lengths:
+     * together less than QUADRATIC_UNDERFLOW. */
+    if (!(size < 0x1p400)) return false;
+    for (int i = 0; i < 2; ++i)
+        if (!(far[i] > 0x1p-500 && far[i] < 0x1p150)) return false;
     *slack_upper =
         slack + (slack * (SUM_PAD * UNIT_ROUNDOFF) + size * (DIVIDING_ROUNDING * UNIT_ROUNDOFF));
     *length_upper = padded_upper(sqrt(vec3_dot(f->n, f->n) + 2 * tilt + lean * lean), ROOT_PAD);

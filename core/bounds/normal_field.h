@@ -19,9 +19,11 @@
  * axis with its curvature, two edges that bend towards each other with both. There K is that of the
  * face, or of each edge along itself (normal_turn.h). */
 
-/* Cuts the range of w to the w at which the field does not prove the nodes farther apart than
- * gamma_clear. False: none is left. `axis` is as for normal_frame_between. The lower bounds of the
- * distance that the field proves are added to `lines`, unless NULL. */
+/* Cuts the range of w to the w at which the nodes are not proved farther apart than gamma_clear, by
+ * the field or by a dividing surface (dividing_surface.h), which is tried instead of it or after it
+ * where terms of third order hide the gap. False: none is left. `axis` is as for
+ * normal_frame_between. The lower bounds of the distance that are proved are added to `lines`,
+ * unless NULL. */
 bool normal_field_cut(const difference *r, vec3 axis, double gamma_clear, w_range *s,
                       gap_lines *lines);
 

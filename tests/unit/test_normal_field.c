@@ -198,7 +198,9 @@ static void add_across(uint64_t *state, double *x, double size)
 
 /* Two nearly parallel surfaces that bend little, but move and are warped within their planes as
  * much as they are wide. At s and m->t they are g apart, nearly across. Bits of `edges`: sides that
- * have only an edge there, since they leave the plane along v; two edges cross. */
+ * have only an edge there, since they leave the plane along v; two edges cross. Some of two faces
+ * have remainders of a tenth of g, which bring them nearer, and beside which terms of third order
+ * are not what hides the gap: there a turning axis is tried first, elsewhere a dividing surface. */
 static meeting warped(uint64_t *state, double s[4], double g, int edges)
 {
     meeting m = two_caps(1, 1, 0);
@@ -222,10 +224,12 @@ static meeting warped(uint64_t *state, double s[4], double g, int edges)
         s[2 * side + 1] = -1;
         for (int i = 0; i < 3; ++i) both[side]->f.bv[i] += (side == 0 ? -4 : 4) * NORMAL[i];
     }
+    const double e = edges == 0 && random_bits(state) % 2 ? 0.1 * g : 0;
     m.t = 0.5 + 0.5 * suite_end_or_inside(state);
     add_across(state, apart, g * random_power(state, -8, -3));
     for (int i = 0; i < 3; ++i) {
-        m.gap[i] = apart[i];
+        m.a.e[i] = m.b.e[i] = e;
+        m.gap[i] = apart[i] - copysign(2 * e, apart[i]);
         m.b.f.a[i] = (double)(apart[i] + point(&m.a, i, s, m.t, 0) - point(&m.b, i, s + 2, m.t, 0));
     }
     return m;
@@ -250,7 +254,7 @@ static gap_lines lines_of(const meeting *m, vec3 axis, difference *r)
 START_TEST(the_field_of_normals_proves_no_more_than_the_distance)
 {
     uint64_t state = suite_seed() + 5;
-    int proved[4] = {0, 0, 0, 0};
+    int proved[5] = {0, 0, 0, 0, 0}; /* by edges; [4]: with remainders */
     for (int k = 0; k < suite_times(400000); ++k) {
         double s[4];
         const meeting m = warped(&state, s, random_power(&state, -12, 1), k % 4);
@@ -260,11 +264,11 @@ START_TEST(the_field_of_normals_proves_no_more_than_the_distance)
         if (lines.count == 1) continue;
         const double w = (m.t - r.mid) / r.half;
         const double lower = lines.line[1].low + lines.line[1].drift * w;
-        proved[k % 4] += lower > 0.25 * gap;
+        proved[m.a.e[0] > 0 ? 4 : k % 4] += lower > 0.25 * gap;
         ck_assert_msg(lower <= gap * (1 + 1e-9), "case %d: %g apart at w = %g, proved %g", k, gap,
                       w, lower);
     }
-    for (int k = 0; k < 4; ++k) ck_assert_int_gt(proved[k], suite_times(100000) / 100);
+    for (int k = 0; k < 5; ++k) ck_assert_int_gt(proved[k], suite_times(100000) / 100);
 }
 END_TEST
 
