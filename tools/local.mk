@@ -340,6 +340,7 @@ tools_libverify_la_SOURCES = \
     tools/verify/net_jets.c \
     tools/verify/round.c tools/verify/round.h \
     tools/verify/shadow.c tools/verify/shadow.h \
+    tools/verify/cloud.c tools/verify/cloud.h \
     tools/verify/sides.c tools/verify/sides.h \
     tools/verify/statement.c tools/verify/statement.h \
     tools/verify/statement_internal.h \

@@ -144,10 +144,10 @@ typedef struct found_point {
     bool some;
 } found_point;
 
-static void take_point(void *context, const slope x[3], bool whole)
+static void take_point(void *context, const slope x[3], const range shift[CLAIM_CLOCKS])
 {
     found_point *f = context;
-    (void)whole;
+    (void)shift;
     for (int i = 0; i < 3; ++i) f->x[i] = x[i].v.lo;
     f->some = x[0].v.hi - x[0].v.lo < 1e-9 && x[1].v.hi - x[1].v.lo < 1e-9 &&
               x[2].v.hi - x[2].v.lo < 1e-9;
@@ -394,8 +394,59 @@ START_TEST(parts_of_a_side_all_count)
 }
 END_TEST
 
+/* --- Parts of motions ------------------------------------------------------------------------- */
+
+/* A shape whose motion has parts, under a lid that is 0.5 away and no more. */
+static const struct {
+    const char *shape, *map, *lid, *lower; /* the lid that holds, and one that does not */
+} lids[] = {
+    /* Each end of a plank that turns is highest at one end of the time. */
+    {"u in [0, 1]; v in [0, 1]; u; v; 2*u - 1", "t in [0, 1]; x; y; z*(2*t - 1)", "1.501", "1.499"},
+    {"u in [0, 1]; v in [0, 1]; u; v; u^2", "t in [0, 1]; x; y; z*t + (1 - z)*(1 - t)", "1.501",
+     "1.499"},
+    /* The highest point is where two parts meet, within a cell. */
+    {"u in [0, 1]; v in [0, 1]; u; v; 0",
+     "t in [0, 0.3]; x; y; z + 3*t | t in [0.3, 1]; x; y; z + 1.2 - t", "1.401", "1.399"},
+    /* Parts that jump: by little, which their hull stands for, and by much. */
+    {"u in [0, 1]; v in [0, 1]; u; v; u", "t in [0, 0.3]; x; y; z | t in [0.3, 1]; x; y; z + 0.001",
+     "1.502", "1.5005"},
+    {"u in [0, 1]; v in [0, 1]; u; v; u", "t in [0, 0.3]; x; y; z + 1 | t in [0.3, 1]; x; y; z - t",
+     "2.501", "2.499"},
+    /* A part that exists at one time alone, and one with time before and behind it. */
+    {"u in [0, 1]; v in [0, 1]; u; v; u", "t in [0, 1]; x; y; z | t in [0.3, 0.3]; x; y; z + 0.4",
+     "1.901", "1.899"},
+    {"u in [0, 1]; v in [0, 1]; u; v; u",
+     "t in [0.2, 0.7]; x; y; z + t^2 | t in [0, 0.1]; x; y; z - t", "1.991", "1.989"},
+};
+
+static certificate under_lid(size_t k)
+{
+    static const uint8_t alone[] = {0, 1, 0, 7};
+    char text[1000];
+    snprintf(text, sizeof text,
+             "impinge certificate 1\nprogram impinge 0\nverdict clear\napart 0.5\nfrom 0\nto 1\n"
+             "body plank\nshape 1 plank\n%s\nmap 1 move\n%s\nsurface 0 0 1\nbody lid\nshape 1 lid\n"
+             "u in [0, 1]; v in [0, 1]; u; v; %s + 0*t\nsurface 1 2\ntrees\n",
+             lids[k].shape, lids[k].map, lids[k].lid);
+    return made(text, alone, sizeof alone);
+}
+
+START_TEST(parts_of_a_motion_all_count)
+{
+    for (size_t k = 0; k < sizeof lids / sizeof *lids; ++k) {
+        char lid[32], lower[32];
+        certificate c = made_for_kernel(under_lid(k));
+        ck_assert_msg(accepts(&c), "motion %zu", k);
+        snprintf(lid, sizeof lid, "; %s + 0*t", lids[k].lid);
+        snprintf(lower, sizeof lower, "; %s + 0*t", lids[k].lower);
+        replace(&c, lid, lower);
+        ck_assert_msg(!accepts(&c), "motion %zu, lower", k);
+    }
+}
+END_TEST
+
 SUITE_MAIN("kernel", elaborated_certificates_hold, what_is_not_elaborated_is_refused,
            false_claims_are_refused, what_is_said_otherwise_is_refused,
            no_change_makes_a_false_statement_hold, slopes_enclose_values,
            arithmetic_rounds_like_mpfi, sides_of_a_leaf_are_divided_as_its_trees_say,
-           parts_of_a_side_all_count)
+           parts_of_a_side_all_count, parts_of_a_motion_all_count)

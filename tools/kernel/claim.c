@@ -264,23 +264,3 @@ bool claim_read(claim *c, bytes *in)
     }
     return bytes_are_good(in);
 }
-
-void claim_free(claim *c)
-{
-    for (size_t k = 0; k < c->stage_count; ++k) {
-        for (size_t i = 0; i < c->stages[k].count; ++i) {
-            const piece *p = &c->stages[k].pieces[i];
-            for (size_t j = 0; j < p->count; ++j) free(p->parts[j].f);
-            free(p->parts);
-        }
-        free(c->stages[k].pieces);
-        free(c->stages[k].last.value);
-    }
-    for (size_t k = 0; k < c->surface_count; ++k) free(c->surfaces[k].stages);
-    for (size_t k = 0; k < c->body_count; ++k) free(c->bodies[k]);
-    for (size_t k = 1; k < c->clock_count; ++k) free(c->clocks[k].name);
-    free(c->stages);
-    free(c->surfaces);
-    free(c->bodies);
-    free(c->ignored);
-}

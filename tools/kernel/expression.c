@@ -104,7 +104,7 @@ static const struct {
     slope_binary *binary;
     const char *text;
 } functions[] = {
-    {"abs", 1, .unary = slope_abs},
+    {"abs", 1, .text = "max(max(a, -a), 0)"},
     {"cos", 1, .unary = slope_cos},
     {"sin", 1, .unary = slope_sin},
     {"pow", 2, .binary = slope_raised},
@@ -118,7 +118,7 @@ static const struct {
 };
 enum { FUNCTIONS = sizeof functions / sizeof *functions };
 
-static int read_sum(reader *r);
+static int read_level(reader *r, int level);
 
 /* Reads the text that a function stands for. */
 static int expand(reader *r, const char *text, const int *arguments)
@@ -127,7 +127,7 @@ static int expand(reader *r, const char *text, const int *arguments)
     const int *outer = r->arguments;
     r->at = text;
     r->arguments = arguments;
-    const int x = read_sum(r);
+    const int x = read_level(r, 0);
     r->arguments = outer;
     if (r->why == NULL) r->at = behind;
     return x;
@@ -138,7 +138,7 @@ static int read_call(reader *r, const char *word)
     int x[ARGUMENTS_MAX] = {0}, count = 0;
     do {
         if (count == ARGUMENTS_MAX) return fail(r, "a function has too many arguments");
-        x[count++] = read_sum(r);
+        x[count++] = read_level(r, 0);
     } while (take(r, ','));
     if (!take(r, ')')) return fail(r, "a formula lacks ')'");
     for (int k = 0; k < FUNCTIONS; ++k) {
@@ -172,7 +172,7 @@ static int read_operand(reader *r)
         return add_number(r, range_of(value));
     }
     if (take(r, '(')) {
-        const int x = read_sum(r);
+        const int x = read_level(r, 0);
         return take(r, ')') ? x : fail(r, "a formula lacks ')'");
     }
     if (!take_word(r, word)) return fail(r, "a formula lacks a number, a name or '('");
@@ -208,14 +208,12 @@ static int read_level(reader *r, int level)
     }
 }
 
-static int read_sum(reader *r) { return read_level(r, 0); }
-
 static void define(reader *r, const char *word)
 {
     bool is_known = find_name(r, word) >= 0 || strcmp(word, "inf") == 0;
     for (int k = 0; k < FUNCTIONS; ++k) is_known = is_known || strcmp(functions[k].name, word) == 0;
     if (is_known) fail(r, "a formula defines a name that has a meaning");
-    const int x = read_sum(r);
+    const int x = read_level(r, 0);
     if (r->name_count == NAMES_MAX) fail(r, "a formula defines too many names");
     if (r->why != NULL) return;
     memcpy(r->names[r->name_count].text, word, WORD);
@@ -229,7 +227,7 @@ static range read_end(reader *r)
     const double infinite = take(r, '-') ? -INFINITY : INFINITY;
     if (take_word(r, word) && strcmp(word, "inf") == 0) return range_of(infinite);
     r->at = from;
-    const step *s = &r->steps[read_sum(r)];
+    const step *s = &r->steps[read_level(r, 0)];
     const double size = fabs(s->number.lo);
     if (s->uses != 0 || !(s->number.hi - s->number.lo <= 0x1p-44 * size && size < INFINITY))
         fail(r, "an end of a range has a variable in it, or is not known well");
@@ -272,7 +270,7 @@ static void read_part(reader *r, int out[3], range said[EXPRESSION_VARIABLES])
         if (!take(r, ';')) fail(r, "a formula lacks ';'");
     for (int i = 0; i < 3; ++i) {
         if (i > 0 && !take(r, ';')) fail(r, "a formula lacks a coordinate");
-        out[i] = read_sum(r);
+        out[i] = read_level(r, 0);
     }
     if (peek(r) != '\0' && *r->at != '|') fail(r, "a formula does not end");
 }

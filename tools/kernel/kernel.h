@@ -2,23 +2,19 @@
  * SPDX-License-Identifier: Apache-2.0 */
 #ifndef TOOLS_KERNEL_KERNEL_H
 #define TOOLS_KERNEL_KERNEL_H
-
 #include <math.h>
 #include <stdbool.h>
 #include <stdint.h>
 #include <stdio.h>
 
-/* Sets of real numbers between two doubles
- * ========================================
- * Each result contains what the operands' numbers give. lo <= hi, neither is NaN, and either may be
- * infinite. */
+/* Sets of real numbers between two doubles. Each result contains what the operands' numbers give.
+ * lo <= hi, neither is NaN, and either may be infinite. */
 
 typedef struct range {
     double lo, hi;
 } range;
 
 #define RANGE_ALL ((range){-INFINITY, INFINITY})
-
 static inline range range_of(double x) { return (range){x, x}; }
 static inline bool range_is(range x, double value) { return x.lo == value && x.hi == value; }
 static inline bool range_has_0(range x) { return !(x.lo > 0 || x.hi < 0); }
@@ -36,14 +32,11 @@ range range_pi(void);
 range range_power(range x, range y);  /* of x >= 0 */
 range range_square(const range x[3]); /* the sum of the three squares, or 0 */
 
-/* A function over a box, by its slopes from the middle
- * ====================================================
- * At each point of the box the function is in v, and it is in c, its value at the middle, plus the
- * sum of s[j] o_j, where o_j is how far variable j is from its middle. Slopes exist where a
- * function has a kink, too. */
+/* A function over a box, by its slopes from the middle: at each point of the box the function is in
+ * v, and it is in c, its value at the middle, plus the sum of s[j] o_j, where o_j is how far
+ * variable j is from its middle. Slopes exist where a function has a kink, too. */
 
 enum { SLOPE_VARIABLES = 8 };
-
 typedef struct slope {
     unsigned on;         /* bit j: it may depend on variable j; the other s[j] are 0, not kept */
     bool is_undefined;   /* it may have no value somewhere in the box */
@@ -58,12 +51,11 @@ slope slope_variable(int j, range where, const range *offset);
 
 typedef slope slope_unary(const slope *x);
 typedef slope slope_binary(const slope *x, const slope *y);
-slope_unary slope_abs, slope_cos, slope_sin;
+slope_unary slope_cos, slope_sin;
 slope_binary slope_sum, slope_less, slope_product, slope_quotient, slope_greatest;
 slope_binary slope_raised; /* to a power that is a constant; else it has no value */
 
 /* A formula: three expressions in up to four variables
- * ====================================================
  *   part     = { item ";" } sum ";" sum ";" sum
  *   item     = name "=" sum | variable "in" "[" end "," end "]"     end = sum | "inf" | "-inf"
  *   sum      = product { ("+" | "-") product }
@@ -74,8 +66,8 @@ slope_binary slope_raised; /* to a power that is a constant; else it has no valu
  * Numbers stand for the nearest double; names are variables, those defined before, or pi. */
 
 enum { EXPRESSION_VARIABLES = 4 };
-
 typedef struct expression expression;
+
 /* Reads one part; *text becomes what follows its '|', or NULL. Writes the ranges of the variables,
  * whose letters are `variables`, outward; RANGE_ALL: none is said. NULL: *why tells. */
 expression *expression_read(const char **text, const char *variables,
@@ -112,17 +104,13 @@ char *bytes_line(bytes *in);                    /* without its end; to be freed;
 const char *bytes_word(bytes *in, char **rest);
 double bytes_number(bytes *in, char **rest);
 uint64_t bytes_whole(bytes *in, char **rest, uint64_t below);
-
 /* Makes room for one more item of a list, all bytes 0. False: a fault. */
 bool bytes_grow(bytes *in, void **list, size_t count, size_t size);
-
-/* What a certificate claims: its lines of text (core/CERTIFICATE.md)
- * ==================================================================
- * For all values of the clocks, of which number 0 is time, no point of a surface of one body is
- * nearer than `apart` to one of another body that is not ignored. */
+/* What a certificate claims by its lines of text (core/CERTIFICATE.md): for all values of the
+ * clocks, of which number 0 is time, no point of a surface of one body is nearer than `apart` to
+ * one of another body that is not ignored. */
 
 enum { CLAIM_CLOCKS = SLOPE_VARIABLES - 2, CLAIM_STAGES = 33 };
-
 /* A surface or map is, at each value of its clock, the union of its parts that exist then. */
 typedef struct part {
     expression *f; /* of u, v and t, or x, y, z and t */
@@ -172,14 +160,11 @@ typedef struct claim {
     range offset[SLOPE_VARIABLES]; /* of what is computed; slopes point to it */
 } claim;
 
-bool claim_read(claim *c, bytes *in); /* the lines up to "trees"; to be freed in any case */
-void claim_free(claim *c);
+bool claim_read(claim *c, bytes *in);                   /* the lines up to "trees" */
 bool claim_ignores(const claim *c, size_t a, size_t b); /* of two surfaces: is nothing claimed? */
 
-/* Cells in which two surfaces are proved to be apart
- * ==================================================
- * Pieces of either surface, by their places in the order of the pair; of a single piece a box of u
- * and v; and values of the clocks. */
+/* Where two surfaces are proved to be apart: pieces of either, by their places in the order of the
+ * pair; of a single piece a box of u and v; and values of the clocks. */
 typedef struct cell {
     size_t first[2], count[2];
     range uv[2][2]; /* only where count is 1 */
@@ -194,35 +179,35 @@ typedef struct pair {
     const char *why;    /* the last cell failed; NULL: it is only not seen to be apart */
 } pair;
 
-/* Visits the points of a side in a cell: of each piece, and each choice of a part of each stage, as
- * slopes of u, v and the clocks. `whole`: they exist at all values of the clocks; else at fewer,
- * from whose middle the slopes are. False: p->why tells. */
-typedef void leaf_visitor(void *context, const slope x[3], bool whole);
+/* Visits the points of a side in a cell: of each piece and choice of parts, as slopes, at values of
+ * the clocks between ends of parts, or at one, whose middles plus `shift` are the cell's. False:
+ * p->why tells. */
+typedef void leaf_visitor(void *context, const slope x[3], const range shift[CLAIM_CLOCKS]);
 bool leaf_visit(pair *p, const cell *c, int side, leaf_visitor *visit, void *context);
 
-/* A side's points: n.x is in `all`, and in p + sum_k s_k o_k, o_k being how far clock k is from
- * its middle. */
+/* A side's points in a cell: n.x is in `all`; and it is in a mean of the ranges `at` the corners of
+ * the clocks' values, with weights that depend on these alone. Bit k of a corner: clock k is at its
+ * upper end. */
 typedef struct bound {
+    const pair *p;
+    const cell *c;
     double n[3];
     bool some; /* points; else nothing else is known */
-    range all, p, s[CLAIM_CLOCKS];
+    range all, at[1 << CLAIM_CLOCKS];
 } bound;
-
 leaf_visitor leaf_add; /* adds the points to a bound */
-/* Returns whether n.(B - A) >= |n| p->of->apart for all points at one time, by either side's. */
-bool leaf_holds(const pair *p, const cell *c, const bound *a, const bound *b);
+/* Returns whether n.(B - A) >= |n| apart for all points at one time, by either side's. */
+bool leaf_holds(const bound *a, const bound *b);
 
 /* Writes the least box of u and v of a piece of a side, by its place in the order. */
 void leaf_box(const pair *p, int side, size_t place, range uv[2]);
 bool leaf_point(pair *p, int side, range x[3]); /* encloses the point that the claim states */
 
 /* The trees of a certificate, read and proved leaf by leaf (core/CERTIFICATE.md) */
-
 enum { TREES_TIME = 4, TREES_AXIS, TREES_SAME, TREES_ALONE, TREES_CLOCK, TREES_SIDES };
 enum { TREES_WHOLE = 2, TREES_DEPTH_MAX = 1000 }; /* an entry of a side that is not divided */
 
-/* The tree of a pair that is being read. */
-typedef struct tree {
+typedef struct tree { /* of a pair, which is being read */
     struct trees *w;
     pair p;
     size_t main;    /* the clock that entries call time */

@@ -7,7 +7,6 @@
 #include "tools/kernel/kernel.h"
 
 /* impinge-verify-kernel: proves a certificate whose leaves need no more than their axis. */
-
 enum { HOLDS, REFUSED, USAGE };
 
 /* Prints the name of a parameter or body, which cannot end its quotes. */
@@ -43,23 +42,18 @@ static void say(const claim *c, const trees *w)
 int main(int argc, char **argv)
 {
     if (argc != 2 || (argv[1][0] == '-' && argv[1][1] != '\0')) {
-        fprintf(stderr,
-                "impinge-verify-kernel " PACKAGE_VERSION "\nUsage: impinge-verify-kernel FILE\n"
-                "Proves a certificate that impinge-verify --elaborate wrote.\n"
-                "Exit status: 0 holds, 1 refused, 2 usage or no file\n");
+        fputs("Usage: impinge-verify-kernel FILE (" PACKAGE_VERSION ")\n"
+              "Proves what impinge-verify --elaborate wrote: 0 holds, 1 refused, 2 no file\n",
+              stderr);
         return USAGE;
     }
     bytes in = {.file = strcmp(argv[1], "-") == 0 ? stdin : fopen(argv[1], "rb")};
-    claim c;
+    static claim c;
     trees w = {.in = &in, .of = &c};
-    if (in.file == NULL) {
-        perror(argv[1]);
-        return USAGE;
-    }
+    if (in.file == NULL) return perror(argv[1]), USAGE;
     const bool good = claim_read(&c, &in) && trees_hold(&w);
     if (good) say(&c, &w);
     if (!good) printf("refused at byte %llu: %s\n", (unsigned long long)in.at, in.fault);
-    claim_free(&c);
     if (fflush(stdout) != 0) return USAGE;
     return good ? HOLDS : REFUSED;
 }

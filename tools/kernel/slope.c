@@ -49,22 +49,28 @@ static bool is_less(rounded a, rounded b) { return a.x < b.x || (a.x == b.x && a
 /* Lemma. What a sum (Knuth), product or quotient of plain numbers lacks is a double, but for the
  * division by b, which keeps sign and order; so x, then `lacks`, tell the least of several. What
  * other numbers give is between the two doubles next to it. */
+static range outward(rounded lo, rounded hi, range x, range y)
+{
+    const bool plain = is_plain(x.lo) && is_plain(x.hi) && is_plain(y.lo) && is_plain(y.hi);
+    if (isnan(lo.x) || isnan(hi.x)) return RANGE_ALL;
+    return (range){plain && lo.lacks >= 0 ? lo.x : nextafter(lo.x, -INFINITY),
+                   plain && hi.lacks <= 0 ? hi.x : nextafter(hi.x, INFINITY)};
+}
+
 static range by_ends(rounded f(double, double), range x, range y)
 {
     const rounded all[] = {f(x.lo, y.lo), f(x.lo, y.hi), f(x.hi, y.lo), f(x.hi, y.hi)};
-    const bool plain = is_plain(x.lo) && is_plain(x.hi) && is_plain(y.lo) && is_plain(y.hi);
     rounded lo = all[0], hi = all[0];
     for (int k = 0; k < 4; ++k) {
         if (isnan(all[k].x)) return RANGE_ALL;
         if (is_less(all[k], lo)) lo = all[k];
         if (is_less(hi, all[k])) hi = all[k];
     }
-    return (range){plain && lo.lacks >= 0 ? lo.x : nextafter(lo.x, -INFINITY),
-                   plain && hi.lacks <= 0 ? hi.x : nextafter(hi.x, INFINITY)};
+    return outward(lo, hi, x, y);
 }
 
-range range_add(range x, range y) { return by_ends(sum, x, y); }
-range range_sub(range x, range y) { return by_ends(sum, x, range_neg(y)); }
+range range_add(range x, range y) { return outward(sum(x.lo, y.lo), sum(x.hi, y.hi), x, y); }
+range range_sub(range x, range y) { return range_add(x, range_neg(y)); }
 range range_mul(range x, range y) { return by_ends(product, x, y); }
 range range_div(range x, range y) { return range_has_0(y) ? RANGE_ALL : by_ends(quotient, x, y); }
 
@@ -79,14 +85,11 @@ static int put_pi(mpfi_ptr to, mpfi_srcptr from) { return (void)from, mpfi_const
 range range_pi(void) { return by(put_pi, range_of(0)); }
 
 /* Sines of wide or far ranges are anything from -1 to 1. */
-static range wave_of(int f(mpfi_ptr, mpfi_srcptr), range x)
+static range wave(int f(mpfi_ptr, mpfi_srcptr), range x)
 {
     if (!(x.hi - x.lo < 6) || !(x.lo > -0x1p40) || !(x.hi < 0x1p40)) return (range){-1, 1};
     return by(f, x);
 }
-
-static range range_sin(range x) { return wave_of(mpfi_sin, x); }
-static range range_cos(range x) { return wave_of(mpfi_cos, x); }
 
 /* Lemma. x^y = exp(y log x), and 0^y is 0 and x^y grows with x if y > 0. */
 range range_power(range x, range y)
@@ -154,8 +157,8 @@ slope slope_less(const slope *x, const slope *y)
 slope slope_product(const slope *x, const slope *y)
 {
     slope r = combined(x, y, range_mul(x->v, y->v), range_mul(x->c, y->c), y->v, x->c);
-    if ((x->on != 0 || !range_is(x->v, 0)) && (y->on != 0 || !range_is(y->v, 0))) return r;
-    r.on = 0, r.v = r.c = zero;
+    if ((x->on == 0 && range_is(x->v, 0)) || (y->on == 0 && range_is(y->v, 0)))
+        r = (slope){.is_undefined = r.is_undefined};
     return r;
 }
 
@@ -172,7 +175,7 @@ slope slope_quotient(const slope *x, const slope *y)
 /* The slopes are t s_x + (1 - t) s_y, 0 <= t <= 1, where either may be the greater one. */
 slope slope_greatest(const slope *x, const slope *y)
 {
-    const bool is_x = x->v.lo > y->v.hi, is_y = y->v.lo > x->v.hi;
+    const bool is_x = x->v.lo >= y->v.hi, is_y = !is_x && y->v.lo >= x->v.hi;
     const range share = {0, 1}, v = range_greatest(x->v, y->v), c = range_greatest(x->c, y->c);
     return combined(x, y, v, c, is_x ? one : is_y ? zero : share, is_y ? one : is_x ? zero : share);
 }
@@ -186,24 +189,15 @@ static slope composed(const slope *x, range v, range c, range derivative, bool i
     return r;
 }
 
-slope slope_abs(const slope *x)
-{
-    const range sign = x->v.lo >= 0 ? one : x->v.hi <= 0 ? range_of(-1) : (range){-1, 1};
-    const range v = range_greatest(x->v, range_neg(x->v));
-    const range c = range_greatest(x->c, range_neg(x->c));
-    slope r = composed(x, v, c, sign, true);
-    if (r.v.lo < 0) r.v.lo = 0;
-    return r;
-}
-
 slope slope_sin(const slope *x)
 {
-    return composed(x, range_sin(x->v), range_sin(x->c), range_cos(x->v), true);
+    return composed(x, wave(mpfi_sin, x->v), wave(mpfi_sin, x->c), wave(mpfi_cos, x->v), true);
 }
 
 slope slope_cos(const slope *x)
 {
-    return composed(x, range_cos(x->v), range_cos(x->c), range_neg(range_sin(x->v)), true);
+    const range slope_of = range_neg(wave(mpfi_sin, x->v));
+    return composed(x, wave(mpfi_cos, x->v), wave(mpfi_cos, x->c), slope_of, true);
 }
 
 static slope whole_power(const slope *x, int k)

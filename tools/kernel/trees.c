@@ -56,7 +56,7 @@ static bool take_side(tree *r, const cell *c, int side, bool divided, bound *b, 
 static bool take_leaf(tree *r, const cell *c, unsigned op)
 {
     trees *w = r->w;
-    bound b[2] = {{.some = false}, {.some = false}};
+    bound b[2] = {{.p = &r->p, .c = c}, {.p = &r->p, .c = c}};
     w->leaves += 1;
     r->p.why = NULL;
     for (int i = 0; i < 3; ++i) {
@@ -67,7 +67,7 @@ static bool take_leaf(tree *r, const cell *c, unsigned op)
     if (w->leaf != NULL) return w->leaf(w->context, r, c, op) || refuse(r, c);
     const bool divided = op == TREES_SIDES, seen = take_side(r, c, 0, divided, &b[0], 0) &&
                                                    take_side(r, c, 1, divided, &b[1], 0);
-    return (seen && (w->of->apart == 0 || leaf_holds(&r->p, c, &b[0], &b[1]))) || refuse(r, c);
+    return (seen && (w->of->apart == 0 || leaf_holds(&b[0], &b[1]))) || refuse(r, c);
 }
 
 static bool take_entry(tree *r, const cell *c, int depth)
@@ -101,12 +101,11 @@ static uint32_t *read_order(bytes *in, size_t count)
 {
     if (count < 2 || bytes_count(in, 1) == 0) return NULL;
     uint32_t *order = malloc(count * sizeof *order);
-    bool *seen = calloc(count, sizeof *seen);
+    uint8_t *seen = calloc(count, 1);
     if (order == NULL || seen == NULL) bytes_refuse(in, "memory ran out");
     for (size_t k = 0; k < count && bytes_are_good(in); ++k) {
         order[k] = (uint32_t)bytes_count(in, count - 1);
-        if (seen[order[k]]) bytes_refuse(in, "an order names piece %u twice", order[k]);
-        seen[order[k]] = true;
+        if (seen[order[k]]++ > 0) bytes_refuse(in, "an order names piece %u twice", order[k]);
     }
     free(seen);
     return order;

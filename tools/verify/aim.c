@@ -10,25 +10,29 @@
 /* A side of a cell: all of its points, the middle of what was visited, and how these depend on the
  * variables, by slopes times half widths. Of many pieces the greatest dependence counts. */
 typedef struct shape {
+    const cell *of;
     size_t count; /* visits */
     double lo[3], hi[3], centre[3];
     double way[SLOPE_VARIABLES][3];  /* half of the width of a variable moves it by so much, */
     double blur[SLOPE_VARIABLES][3]; /* more or less */
-    bool is_unbounded, whole;        /* at all times */
+    bool is_unbounded;
 } shape;
 
 static double width_of(range x) { return x.hi - x.lo; }
 
-static void add_visit(void *context, const slope x[3], bool whole)
+static void add_visit(void *context, const slope x[3], const range shift[CLAIM_CLOCKS])
 {
     shape *s = context;
     for (int i = 0; i < 3; ++i) {
         s->lo[i] = s->count > 0 ? fmin(s->lo[i], x[i].v.lo) : x[i].v.lo;
         s->hi[i] = s->count > 0 ? fmax(s->hi[i], x[i].v.hi) : x[i].v.hi;
         s->centre[i] = range_middle(x[i].c);
+        for (int k = 0; k < CLAIM_CLOCKS; ++k)
+            if (slope_has(&x[i], 2 + k))
+                s->centre[i] += range_middle(x[i].s[2 + k]) * range_middle(shift[k]);
         for (int j = 0; j < SLOPE_VARIABLES; ++j) {
             if (!slope_has(&x[i], j)) continue;
-            const double r = 0.5 * width_of(x[i].offset[j]);
+            const double r = 0.5 * width_of(j < 2 ? x[i].offset[j] : s->of->clocks[j - 2]);
             const double way = range_middle(x[i].s[j]) * r, blur = 0.5 * width_of(x[i].s[j]) * r;
             if (!(fabs(way) < INFINITY) || !(blur < INFINITY)) s->is_unbounded = true;
             if (fabs(way) + blur <= fabs(s->way[j][i]) + s->blur[j][i]) continue;
@@ -36,7 +40,6 @@ static void add_visit(void *context, const slope x[3], bool whole)
         }
     }
     s->count += 1;
-    s->whole = s->whole && whole;
 }
 
 static double dot(const double a[3], const double b[3])
@@ -224,7 +227,7 @@ static void centre_boxes(const cell *c, shape s[2])
 
 void aim_take(pair *p, const cell *c, const int16_t *const known[2], aim *found)
 {
-    shape s[2] = {{.whole = true}, {.whole = true}};
+    shape s[2] = {{.of = c}, {.of = c}};
     difference d;
     double best[3] = {0, 0, 0};
     *found = (aim){.count = 0};
@@ -249,4 +252,5 @@ void aim_take(pair *p, const cell *c, const int16_t *const known[2], aim *found)
         found->count = 1;
     if (!shorten(best, found->best)) memset(found->best, 0, sizeof found->best);
     found->cut = choose(p, c, s, &d, best);
+    if (found->cut.side < 0) found->cut = widest_range(p, c); /* no axis was good enough */
 }

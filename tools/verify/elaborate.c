@@ -11,10 +11,10 @@
 #include "core/common/sha256.h"
 #include "tools/kernel/kernel.h"
 #include "tools/verify/aim.h"
+#include "tools/verify/cloud.h"
 #include "tools/verify/sides.h"
 
-enum { DEPTH_MAX = 120, HELD = 7, AXIS_SIZE = 3 * sizeof(int16_t) }; /* HELD: bytes of a leaf */
-enum { CREDIT = 512, CREDIT_A_CELL = 4, CREDIT_A_LEAF = 64 };
+enum { DEPTH_MAX = 120, HELD = 7 }; /* HELD: bytes of a leaf */
 
 typedef struct elaboration {
     FILE *to;
@@ -30,7 +30,7 @@ typedef struct elaboration {
     unsigned long effort, cells; /* of a leaf */
     elaborated *found;
     sides sides;
-    long credit; /* enclosures that may be in vain for sides that are divided */
+    cloud cloud;
 } elaboration;
 
 /* --- Writing ---------------------------------------------------------------------------------- */
@@ -107,11 +107,13 @@ static void put_split(elaboration *e, const tree *r, const aim_cut *by)
 
 static bool holds(elaboration *e, tree *r, const cell *c, const int16_t axis[3])
 {
-    bound b[2] = {{.n = {axis[0], axis[1], axis[2]}}, {.n = {axis[0], axis[1], axis[2]}}};
+    bound b[2];
     e->found->tests += 1;
-    for (int side = 0; side < 2; ++side)
+    for (int side = 0; side < 2; ++side) {
+        b[side] = (bound){.p = &r->p, .c = c, .n = {axis[0], axis[1], axis[2]}};
         if (!leaf_visit(&r->p, c, side, leaf_add, &b[side])) return false;
-    return leaf_holds(&r->p, c, &b[0], &b[1]);
+    }
+    return leaf_holds(&b[0], &b[1]);
 }
 
 static bool give_up(tree *r, const char *why)
@@ -120,30 +122,46 @@ static bool give_up(tree *r, const char *why)
     return false;
 }
 
-static bool is_among(const int16_t *const axes[3], int count, const int16_t axis[3])
+/* The clock whose values are the greatest share of their range. */
+static size_t widest_clock(const tree *r, const cell *c)
 {
-    bool found = axis[0] == 0 && axis[1] == 0 && axis[2] == 0;
-    for (int k = 0; k < count; ++k) found = found || memcmp(axes[k], axis, AXIS_SIZE) == 0;
-    return found;
+    size_t best = r->main;
+    double most = 0;
+    for (size_t k = 0; k < r->w->of->clock_count; ++k) {
+        const range all = r->w->of->clocks[k].all, here = c->clocks[k];
+        const double share = all.hi > all.lo ? (here.hi - here.lo) / (all.hi - all.lo) : 0;
+        if (share > most) most = share, best = k;
+    }
+    return best;
+}
+
+/* Writes a cell as a leaf with this axis, if there are parts of its sides that do. */
+static bool try_sides(elaboration *e, tree *r, const cell *c, const int16_t axis[3])
+{
+    const bool good = sides_find(&e->sides, &r->p, c, axis);
+    e->found->tests += e->sides.tests;
+    if (good) put_sides(e, axis);
+    return good;
 }
 
 /* Writes a cell as a leaf whose sides are divided; false: changes by what the cell is to be divided
- * instead. */
-static bool write_sides(elaboration *e, tree *r, const cell *c, const int16_t *const axes[3],
-                        aim_cut *cut)
+ * instead. The axis of the leaf before is tried first. */
+static bool write_sides(elaboration *e, tree *r, const cell *c, const int16_t axis[3],
+                        const int16_t other[3], aim_cut *cut)
 {
-    e->credit += CREDIT_A_CELL;
-    for (int k = 0; k < 3 && e->credit > 0; ++k) {
-        if (is_among(axes, k, axes[k])) continue;
-        const bool good = sides_find(&e->sides, &r->p, c, axes[k]);
-        e->found->tests += e->sides.tests;
-        e->credit += good ? CREDIT_A_LEAF : -(long)e->sides.tests;
-        if (good) {
-            put_sides(e, axes[k]);
+    cloud *l = &e->cloud;
+    const bool is_some = axis[0] != 0 || axis[1] != 0 || axis[2] != 0;
+    e->sides.clock = -1;
+    if (is_some && try_sides(e, r, c, axis)) return true;
+    if (e->sides.clock < 0) {
+        cloud_find(l, &r->p, c);
+        e->found->tests += l->tests;
+        const bool is_known = l->room > -INFINITY;
+        if ((!is_known || l->room > 0) && try_sides(e, r, c, is_known ? l->axis : other))
             return true;
-        }
-        if (e->sides.clock >= 0) *cut = (aim_cut){2, (size_t)e->sides.clock};
+        if (l->always > 2 * fmax(l->room, 0)) *cut = (aim_cut){2, widest_clock(r, c)};
     }
+    if (e->sides.clock >= 0) *cut = (aim_cut){2, (size_t)e->sides.clock};
     return false;
 }
 
@@ -161,8 +179,7 @@ static bool write_cell(elaboration *e, tree *r, const cell *c, const int16_t hin
             put_leaf(e, found.axes[k]);
             return true;
         }
-    if (write_sides(e, r, c, (const int16_t *const[3]){hint, known[0], found.best}, &found.cut))
-        return true;
+    if (write_sides(e, r, c, known[0], found.best, &found.cut)) return true;
     if (found.cut.side < 0) return give_up(r, "it is too small to be divided");
     const size_t along = found.cut.along;
     const range all = c->clocks[found.cut.side == 2 ? along : 0];
@@ -181,9 +198,28 @@ static bool take_leaf(void *context, tree *r, const cell *c, unsigned op)
     put_held(e, e->held_count - size);
     e->held_count = 0;
     e->cells = 0;
-    e->credit = CREDIT;
     for (int i = 0; i < 3 && op != TREES_ALONE; ++i) hint[i] = (int16_t)r->axis[i];
     return write_cell(e, r, c, hint, 0);
+}
+
+void claim_free(claim *c)
+{
+    for (size_t k = 0; k < c->stage_count; ++k) {
+        for (size_t i = 0; i < c->stages[k].count; ++i) {
+            const piece *p = &c->stages[k].pieces[i];
+            for (size_t j = 0; j < p->count; ++j) free(p->parts[j].f);
+            free(p->parts);
+        }
+        free(c->stages[k].pieces);
+        free(c->stages[k].last.value);
+    }
+    for (size_t k = 0; k < c->surface_count; ++k) free(c->surfaces[k].stages);
+    for (size_t k = 0; k < c->body_count; ++k) free(c->bodies[k]);
+    for (size_t k = 1; k < c->clock_count; ++k) free(c->clocks[k].name);
+    free(c->stages);
+    free(c->surfaces);
+    free(c->bodies);
+    free(c->ignored);
 }
 
 bool elaborate(FILE *from, FILE *to, unsigned long effort, elaborated *found)

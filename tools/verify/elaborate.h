@@ -23,4 +23,8 @@ typedef struct elaborated {
  * found->why tells. */
 bool elaborate(FILE *from, FILE *to, unsigned long effort, elaborated *found);
 
+struct claim;
+/* Frees what claim_read made, which the kernel leaves to the end of its process. */
+void claim_free(struct claim *c);
+
 #endif

@@ -10,14 +10,14 @@
  * The kernel bounds n.A by the parts of A alone and n.B by those of B, so that parts cost their
  * sum, not their product. This looks for few parts that do for one axis. */
 
-enum { SIDES_PARTS = 128 }; /* of both sides, with those that are divided */
+enum { SIDES_PARTS = 256 }; /* of both sides, with those that are divided */
 
 typedef struct side_part {
     cell of;
     bound b;
     int half; /* the first of its halves; the other one follows. 0: it is whole */
-    int along;
-    double missed[CLAIM_CLOCKS]; /* how far clocks move n.x where the kernel does not use slopes */
+    int side, along;
+    double blur[CLAIM_CLOCKS]; /* what slopes by a clock leave open of n.x */
 } side_part;
 
 typedef struct sides {
