@@ -111,3 +111,13 @@ elaborated() {
     run -2 kernel none.proof
     run -2 kernel --all
 }
+
+@test "on a terminal --elaborate tells how far it has read, unless it is to be quiet" {
+    script -qec true /dev/null >/dev/null 2>&1 || skip 'no pseudo-terminal here'
+    "$IMPINGE" solve "$top_srcdir/tools/data/door.json" --proof door.proof
+    on_terminal() { script -qec "'$top_builddir/tools/impinge-verify' door.proof --elaborate long $1" /dev/null; }
+    run on_terminal ''
+    [[ $output == *$'\r'*" bytes "*"elaborated: 47 leaves to "* ]]
+    run on_terminal --quiet
+    [ "$output" = '' ]
+}

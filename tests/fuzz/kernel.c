@@ -37,7 +37,7 @@ static void elaborate_and_judge(const unsigned char *from, size_t size)
     elaborated found;
     FILE *file = fmemopen((void *)(uintptr_t)from, size, "rb"),
          *to = open_memstream(&made, &length);
-    const bool good = file != NULL && to != NULL && elaborate(file, to, EFFORT, &found);
+    const bool good = file != NULL && to != NULL && elaborate(file, to, EFFORT, NULL, &found);
     if (file != NULL) fclose(file);
     if (to != NULL) fclose(to);
     if (good) FUZZ_REQUIRE(judge((const unsigned char *)made, length));

@@ -57,7 +57,7 @@ static bool elaborated_of(const certificate *c, unsigned long effort, certificat
     memcpy(all, c->bytes, c->size);
     FILE *from = fmemopen(all, c->size + CHECKSUM, "rb"), *file = open_memstream(&out, &size);
     ck_assert(from != NULL && file != NULL);
-    const bool good = elaborate(from, file, effort, found);
+    const bool good = elaborate(from, file, effort, NULL, found);
     fclose(from);
     fclose(file);
     if (good) {
@@ -417,6 +417,14 @@ static const struct {
      "1.901", "1.899"},
     {"u in [0, 1]; v in [0, 1]; u; v; u",
      "t in [0.2, 0.7]; x; y; z + t^2 | t in [0, 0.1]; x; y; z - t", "1.991", "1.989"},
+    /* Parts that are there at the same times. */
+    {"u in [0, 1]; v in [0, 1]; u; v; u", "t in [0, 1]; x; y; z | t in [0, 1]; x; y; z + 0.001",
+     "1.502", "1.5005"},
+    /* A part that is there for less than the cell, and falls, or rises, like the lid. */
+    {"u in [0, 1]; v in [0, 1]; u; v; u", "t in [0.3, 1]; x; y; z - 10*t", "1.501 - 10*t",
+     "1.499 - 10*t"},
+    {"u in [0, 1]; v in [0, 1]; u; v; u", "t in [0, 0.3]; x; y; z + 10*t", "1.501 + 10*t",
+     "1.499 + 10*t"},
 };
 
 static certificate under_lid(size_t k)

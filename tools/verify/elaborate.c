@@ -15,6 +15,7 @@
 #include "tools/verify/sides.h"
 
 enum { DEPTH_MAX = 120, HELD = 7 }; /* HELD: bytes of a leaf */
+enum { CREDIT = 512, CREDIT_A_CELL = 4, CREDIT_A_LEAF = 64 };
 
 typedef struct elaboration {
     FILE *to;
@@ -29,6 +30,8 @@ typedef struct elaboration {
     int16_t last[3];    /* its axis */
     unsigned long effort, cells; /* of a leaf */
     elaborated *found;
+    long credit;                      /* enclosures of many pieces that may be in vain */
+    void (*progress)(uint64_t bytes); /* NULL: nobody is told */
     sides sides;
     cloud cloud;
 } elaboration;
@@ -138,8 +141,11 @@ static size_t widest_clock(const tree *r, const cell *c)
 /* Writes a cell as a leaf with this axis, if there are parts of its sides that do. */
 static bool try_sides(elaboration *e, tree *r, const cell *c, const int16_t axis[3])
 {
+    const bool is_many = c->count[0] > 1 || c->count[1] > 1;
+    if (is_many && e->credit <= 0) return false;
     const bool good = sides_find(&e->sides, &r->p, c, axis);
     e->found->tests += e->sides.tests;
+    if (is_many) e->credit += good ? CREDIT_A_LEAF : -(long)e->sides.tests;
     if (good) put_sides(e, axis);
     return good;
 }
@@ -152,6 +158,7 @@ static bool write_sides(elaboration *e, tree *r, const cell *c, const int16_t ax
     cloud *l = &e->cloud;
     const bool is_some = axis[0] != 0 || axis[1] != 0 || axis[2] != 0;
     e->sides.clock = -1;
+    e->credit += CREDIT_A_CELL;
     if (is_some && try_sides(e, r, c, axis)) return true;
     if (e->sides.clock < 0) {
         cloud_find(l, &r->p, c);
@@ -172,6 +179,7 @@ static bool write_cell(elaboration *e, tree *r, const cell *c, const int16_t hin
     cell half[2];
     if (++e->cells > e->effort || depth > DEPTH_MAX)
         return give_up(r, "it is not proved within the effort allowed");
+    if (e->progress != NULL) e->progress(e->w->in->at);
     const int16_t *known[2] = {e->leaf_tree == e->tree ? e->last : hint, hint};
     aim_take(&r->p, c, known, &found);
     for (int k = 0; k < found.count; ++k)
@@ -198,6 +206,7 @@ static bool take_leaf(void *context, tree *r, const cell *c, unsigned op)
     put_held(e, e->held_count - size);
     e->held_count = 0;
     e->cells = 0;
+    e->credit = CREDIT;
     for (int i = 0; i < 3 && op != TREES_ALONE; ++i) hint[i] = (int16_t)r->axis[i];
     return write_cell(e, r, c, hint, 0);
 }
@@ -222,12 +231,13 @@ void claim_free(claim *c)
     free(c->ignored);
 }
 
-bool elaborate(FILE *from, FILE *to, unsigned long effort, elaborated *found)
+bool elaborate(FILE *from, FILE *to, unsigned long effort, void progress(uint64_t bytes),
+               elaborated *found)
 {
     uint8_t digest[SHA256_BYTES];
     claim c;
     trees w = {.of = &c, .leaf = take_leaf};
-    elaboration e = {.to = to, .w = &w, .effort = effort, .found = found};
+    elaboration e = {.to = to, .w = &w, .effort = effort, .found = found, .progress = progress};
     bytes in = {.file = from, .copy = copy, .context = &e};
     w.in = &in, w.context = &e;
     *found = (elaborated){.leaves = 0};

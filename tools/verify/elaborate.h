@@ -19,9 +19,10 @@ typedef struct elaborated {
     char why[1000];
 } elaborated;
 
-/* Reads a certificate and writes the other one; `effort`: cells that a leaf may become. False:
- * found->why tells. */
-bool elaborate(FILE *from, FILE *to, unsigned long effort, elaborated *found);
+/* Reads a certificate and writes the other one; `effort`: cells that a leaf may become; `progress`
+ * is told at each cell how many bytes have been read (NULL: not). False: found->why tells. */
+bool elaborate(FILE *from, FILE *to, unsigned long effort, void progress(uint64_t bytes),
+               elaborated *found);
 
 struct claim;
 /* Frees what claim_read made, which the kernel leaves to the end of its process. */

@@ -224,7 +224,9 @@ static int write_for_kernel(const request *asked, rewrite *to)
         fprintf(stderr, "impinge-verify: %s: %s\n", asked->path, strerror(errno));
         return USAGE;
     }
-    const bool good = elaborate(from, to->draft, asked->effort, &found);
+    run_progress *progress = run_progress_of(asked);
+    const bool good = elaborate(from, to->draft, asked->effort, progress, &found);
+    run_progress_end(progress);
     if (from != stdin) fclose(from);
     if (!good)
         printf("not elaborated: at byte %llu: %s\n", (unsigned long long)found.at, found.why);

@@ -34,6 +34,16 @@ static void show_progress(uint64_t bytes)
     fprintf(stderr, "\r%llu bytes ", (unsigned long long)bytes);
 }
 
+run_progress *run_progress_of(const request *asked)
+{
+    return !asked->quiet && isatty(2) ? show_progress : NULL;
+}
+
+void run_progress_end(run_progress *progress)
+{
+    if (progress != NULL) fprintf(stderr, "\r                        \r");
+}
+
 void run_verify(const request *asked, input *in, statement *s, unsigned share, outcome *found)
 {
     walk w = {.in = in,
@@ -42,14 +52,14 @@ void run_verify(const request *asked, input *in, statement *s, unsigned share, o
               .share = share,
               .shares = asked->threads,
               .text = asked->text ? stdout : NULL,
-              .progress = share == 0 && !asked->quiet && isatty(2) ? show_progress : NULL};
+              .progress = share == 0 ? run_progress_of(asked) : NULL};
     bool good = asked->rewrite == NULL || rewrite_watch(asked->rewrite, &w);
     good = good && statement_read(s, in);
     w.assumed = good ? calloc(s->stage_count + 1, sizeof *w.assumed) : NULL;
     if (good && w.assumed == NULL) good = input_refuse(in, "memory ran out");
     good = good && (share > 0 || walk_points(&w)) && walk_trees(&w);
     if (good && asked->rewrite != NULL) rewrite_end(asked->rewrite);
-    if (w.progress != NULL) fprintf(stderr, "\r                        \r");
+    run_progress_end(w.progress);
     *found = (outcome){!good, in->fault_at, in->at, w.leaves, w.pairs, w.tests, "", ""};
     memcpy(found->text, in->fault, sizeof found->text);
     if (good) name_assumed(s, w.assumed, found->assumed, sizeof found->assumed);

@@ -28,6 +28,11 @@ typedef struct outcome {
     char assumed[1000]; /* names of types */
 } outcome;
 
+/* Tells on a terminal that standard error is how many bytes have been read. */
+typedef void run_progress(uint64_t bytes);
+run_progress *run_progress_of(const request *asked); /* NULL: it is no terminal, or --quiet */
+void run_progress_end(run_progress *progress);
+
 /* Proves what is read, or the share of it that is process number `share`'s. */
 void run_verify(const request *asked, input *in, statement *s, unsigned share, outcome *found);
 
