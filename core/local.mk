@@ -52,6 +52,7 @@ core_surface = \
     core/surface/surface_motion.c core/surface/surface_net.c core/surface/surface_pose.c \
     core/surface/course.h core/surface/course_line.c core/surface/course_line.h \
     core/surface/feature.c core/surface/feature.h \
+    core/surface/glance.c core/surface/glance.h \
     core/surface/half_plane.c core/surface/half_plane.h core/surface/screw_piece.c \
     core/surface/screw_piece.h core/surface/screw_rest.c core/surface/screw_section.c \
     core/surface/screws.h \
@@ -195,7 +196,8 @@ core_broad_phase = \
     core/broad_phase/candidate.c core/broad_phase/candidate.h \
     core/broad_phase/candidates.c core/broad_phase/candidates.h \
     core/broad_phase/candidates_part.c \
-    core/broad_phase/collect_frames.c core/broad_phase/collect_half_planes.c \
+    core/broad_phase/collect_frames.c core/broad_phase/collect_glances.c \
+    core/broad_phase/collect_half_planes.c \
     core/broad_phase/frame_list.h \
     core/broad_phase/collect_pairs.c \
     core/broad_phase/collect_roots.c \

@@ -36,6 +36,7 @@ check_suites = \
     tests/unit/test_distance_windows \
     tests/unit/test_slips \
     tests/unit/test_slip_pairs \
+    tests/unit/test_glances \
     tests/unit/test_screw_slips \
     tests/unit/test_half_planes \
     tests/unit/test_screw_pieces \
@@ -595,7 +596,7 @@ noinst_HEADERS += \
     tests/support/scene_text.h \
     tests/support/scene_variants.h \
     tests/support/shape_points.h \
-    tests/support/slip_helpers.h \
+    tests/support/chain_helpers.h tests/support/slip_helpers.h \
     tests/support/solid_helpers.h \
     tests/support/sphere_scenes.h \
     tests/support/suite.h \

@@ -8,8 +8,13 @@
 
 static size_t next_capacity(const arena_block *last, const arena_growth *growth, size_t bytes)
 {
-    const size_t wanted = last == NULL ? growth->first : growth->factor * last->capacity;
-    const size_t capacity = wanted < growth->most ? wanted : growth->most;
+    size_t all = 0, capacity = growth->first;
+    for (const arena_block *b = last; b != NULL; b = b->next) all += b->capacity;
+    if (last != NULL) {
+        const size_t units = (all * growth->percent / 100 + growth->unit - 1) / growth->unit;
+        capacity = (units > 0 ? units : 1) * growth->unit;
+    }
+    if (capacity > growth->most) capacity = growth->most;
     return capacity < bytes ? bytes : capacity;
 }
 

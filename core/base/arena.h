@@ -25,10 +25,11 @@ typedef struct arena {
     _Atomic(arena_block *) newest; /* NULL: there is none yet */
 } arena;
 
-/* Capacities of an arena's blocks: the first one's, the factor from one to the next, and the
- * greatest. */
+/* Capacities of an arena's blocks: that of the first, what each next one adds to all so far, in
+ * multiples of a unit, and the greatest. The more it adds, the fewer blocks there are, and the more
+ * of the last one is left unused: by half, a fifth of an arena on average. */
 typedef struct arena_growth {
-    size_t first, factor, most; /* bytes, 1, bytes */
+    size_t first, unit, percent, most; /* bytes, bytes, 1, bytes */
 } arena_growth;
 
 /* Takes room of `bytes`, a multiple of 8, in the newest block. NULL: too little is left there.

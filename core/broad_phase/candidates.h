@@ -52,9 +52,11 @@ typedef struct candidate_search {
     bool may_rest; /* pairs that turn within themselves may have trees of one moment: in a query of
                       all times, not of slices */
     double slip_most; /* of the list, at most; length */
-    bool may_halve;   /* nodes that miss a half plane may be left out: each pair that is left need
+    /* Slips of surfaces along each other that are larger than this are of no use; length. */
+    double slip_useful;
+    bool may_halve; /* nodes that miss a half plane may be left out: each pair that is left need
                        not be near all points that it stands for (proofs, spreads) */
-    bool in_parts;    /* candidates_frame is asked for frames and missing roots, for some pairs at a
+    bool in_parts;  /* candidates_frame is asked for frames and missing roots, for some pairs at a
                       time, so that the first pairs are searched before the last are prepared */
 } candidate_search;
 

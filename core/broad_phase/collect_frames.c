@@ -7,7 +7,6 @@
 
 #include "core/base/rounding.h"
 #include "core/base/status.h"
-#include "core/bounds/time_window.h"
 #include "core/broad_phase/frame_list.h"
 #include "core/common/array.h"
 #include "core/surface/screws.h"
@@ -97,7 +96,7 @@ static imp_code find_frame(collection *all, frame_list *frames, const candidate 
         if (are_equal(&frames->at[*found], view)) return IMP_SUCCESS;
     frame *made = frame_list_next(frames);
     if (made == NULL) return error_set_memory(error);
-    *made = (frame){of, frames->first[of], *view, *c};
+    *made = (frame){of, frames->first[of], *view, *c, {.from = INFINITY}};
     bool exists = true;
     if (view->left_out != c->left_out || !isnan(view->moment)) {
         if (collection_must_end(all)) return IMP_SUCCESS;
@@ -129,22 +128,16 @@ static imp_code find_screw_slip(collection *all, candidate *const side[2],
 }
 
 /* Bounds in *slip how much the distance of the pair of these frames changes with time. */
-static imp_code find_slip(collection *all, candidate *const side[2], time_window *times,
-                          double *slip, imp_error *error)
+static imp_code find_slip(candidate *const side[2], const time_window *times, double *slip,
+                          imp_error *error)
 {
     imp_model bare[2][3];
     const surface *s[2];
     *slip = INFINITY;
     for (int k = 0; k < 2; ++k) {
-        tree_growth growth = {0};
-        const imp_code code = tree_make_root(side[k]->tree, &growth, error);
-        if (code != IMP_SUCCESS) return code;
-        collection_count(all, &growth);
         s[k] = tree_surface(side[k]->tree);
         if (!node_bare_models(tree_root(side[k]->tree), bare[k])) return IMP_SUCCESS;
     }
-    *times = pair_times(tree_root(side[0]->tree), tree_root(side[1]->tree));
-    if (times->lo > times->hi) return IMP_SUCCESS;
     const imp_region all_times =
         region_make((double[3]){0, 0, times->lo}, (double[3]){0, 0, times->hi});
     int asked = 1;
@@ -169,10 +162,13 @@ static imp_code rest_pair(collection *all, frame_list *frames, size_t k, double 
 {
     const candidate_pair *p = &all->list->pairs[k];
     size_t *of_pair = frames->of_pair[k];
-    candidate *const side[2] = {&frames->at[of_pair[0]].made, &frames->at[of_pair[1]].made};
     time_window times;
     double slip;
-    imp_code code = find_slip(all, side, &times, &slip, error);
+    imp_code code = frames_make_roots(all, frames, k, &times, error);
+    if (code != IMP_SUCCESS || times.lo > times.hi) return code;
+    if (!frames_look_at_pair(all, frames, k, &times)) return IMP_SUCCESS;
+    candidate *const side[2] = {&frames->at[of_pair[0]].made, &frames->at[of_pair[1]].made};
+    code = find_slip(side, &times, &slip, error);
     if (code != IMP_SUCCESS || !(slip <= all->slip_most)) return code;
     *found = slip;
     for (int j = 0; j < 2 && code == IMP_SUCCESS; ++j) {

@@ -66,18 +66,15 @@ imp_code frames_halve_pair(collection *all, frame_list *frames, size_t k, double
     const surface *s[2];
     half_plane of[2];
     size_t *of_pair = frames->of_pair[k];
-    tree *const t[2] = {frames->at[of_pair[0]].made.tree, frames->at[of_pair[1]].made.tree};
-    imp_code code = IMP_SUCCESS;
-    for (int side = 0; side < 2 && code == IMP_SUCCESS; ++side) {
-        tree_growth growth = {0};
-        code = tree_make_root(t[side], &growth, error);
-        collection_count(all, &growth);
-        s[side] = tree_surface(t[side]);
-        tree_box(t[side], lo[side], hi[side]);
+    time_window times;
+    imp_code code = frames_make_roots(all, frames, k, &times, error);
+    if (code != IMP_SUCCESS || times.lo > times.hi) return code;
+    if (frames_lack_common_line(all, frames, k, &times)) return IMP_SUCCESS;
+    for (int side = 0; side < 2; ++side) {
+        const tree *t = frames->at[of_pair[side]].made.tree;
+        s[side] = tree_surface(t);
+        tree_box(t, lo[side], hi[side]);
     }
-    if (code != IMP_SUCCESS) return code;
-    const time_window times = pair_times(tree_root(t[0]), tree_root(t[1]));
-    if (times.lo > times.hi) return IMP_SUCCESS;
     const half_plane_boxes boxes = {{lo[0], lo[1]}, {hi[0], hi[1]}};
     const imp_region over = region_make((double[3]){0, 0, times.lo}, (double[3]){0, 0, times.hi});
     int asked;

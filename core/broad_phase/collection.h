@@ -58,6 +58,7 @@ typedef struct collection {
     bool is_nearest;      /* of the candidate_search */
     size_t common_motion; /* number of last maps of all surfaces that all trees leave out */
     double slip_most;     /* of pairs searched at one moment; < 0: none are; length */
+    double slip_useful;   /* of the candidate_search */
     bool may_halve;       /* half planes are used; not without slip_most */
     swept_box *boxes, at_hand[BOXES_AT_HAND];
     candidate_list *list;

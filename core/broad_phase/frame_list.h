@@ -3,9 +3,11 @@
 #ifndef CORE_BROAD_PHASE_FRAME_LIST_H
 #define CORE_BROAD_PHASE_FRAME_LIST_H
 
+#include "core/bounds/time_window.h"
 #include "core/broad_phase/collection.h"
+#include "core/surface/glance.h"
 
-/* Frames of candidates, for collect_frames.c and collect_half_planes.c. */
+/* Frames of candidates, for collect_frames.c, collect_glances.c and collect_half_planes.c. */
 
 /* A surface in one frame: candidate `of` in the form `view`. */
 typedef struct frame {
@@ -13,6 +15,7 @@ typedef struct frame {
     size_t next; /* of the same candidate, or NONE */
     surface_view view;
     candidate made;
+    surface_glance seen; /* at the common times of a pair; from > to: not made yet */
 } frame;
 
 #define NONE SIZE_MAX
@@ -27,6 +30,19 @@ typedef struct frame_list {
 
 /* Returns room for one more frame, which is not counted yet. NULL: no memory. */
 frame *frame_list_next(frame_list *frames);
+
+/* Makes the roots of the pair's frames. *times: those of both; lo > hi: there are none. */
+imp_code frames_make_roots(collection *all, const frame_list *frames, size_t k, time_window *times,
+                           imp_error *error);
+
+/* Glances at both surfaces of pair k, with roots, over their common times, and notes which slips
+ * are too large to be of use. False: no point of a surface is known that its maps carry, or both
+ * surely do not only turn within themselves. */
+bool frames_look_at_pair(collection *all, frame_list *frames, size_t k, const time_window *times);
+
+/* Whether the glances at pair k show that its surfaces are not closed about one line. */
+bool frames_lack_common_line(const collection *all, const frame_list *frames, size_t k,
+                             const time_window *times);
 
 /* Whether both surfaces of the pair may be closed about one line. */
 bool frames_may_have_half_planes(const collection *all, const candidate_pair *p);

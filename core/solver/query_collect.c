@@ -64,6 +64,14 @@ static bool is_nearest(const imp_query *query)
     return query->clearance != NULL && !clearance_is_each(query->clearance) && query->divided == 0;
 }
 
+/* A search for a contact asks for slips that are far below gamma_clear, which never exceeds gamma by
+ * as much as this. */
+static double slip_useful(const imp_query *query)
+{
+    const bool is_contact = query->clearance == NULL && query->impact.spread == NULL;
+    return is_contact ? 2 * query->options.gamma : INFINITY;
+}
+
 /* Half planes are left out where a verifier, or a box of values, sees each pair of points. */
 static candidate_search search_of(const imp_query *query)
 {
@@ -73,6 +81,7 @@ static candidate_search search_of(const imp_query *query)
         .gamma_clear = near,
         .is_nearest = is_nearest(query),
         .may_rest = may_rest(query),
+        .slip_useful = slip_useful(query),
         .slip_most = query->clearance != NULL ? clearance_slip_most(query->clearance) : INFINITY,
         .may_halve = query->proof == NULL && query->impact.spread == NULL,
         .in_parts = query->divided > 0};

@@ -117,40 +117,6 @@ static imp_status add_off(const surface *const s[2], const imp_model bare[2][3],
     return status == IMP_STATUS_UNBOUNDED ? IMP_STATUS_OK : status;
 }
 
-/* A point that rotations of the surface's closed symmetry leave where it is; any point if it has
- * none. */
-static void middle_of(const surface *s, const imp_model bare[3], double x[3])
-{
-    imp_symmetry found;
-    const bool is_closed = surface_closed_symmetry(s, &found) == IMP_STATUS_OK;
-    for (int i = 0; i < 3; ++i) x[i] = is_closed ? found.center[i] : bare[i].a;
-}
-
-enum { LOOKS = 3 };
-#define SURELY_APART 0x1p-12
-
-/* Whether a look at some moments shows that the pair does not only turn within itself: as long as
- * it does, these two points are always as far apart. Errors of it cost time, or pairs. */
-static bool surely_moves(const surface *const s[2], const imp_model bare[2][3],
-                         const imp_region *times)
-{
-    static const double looks[LOOKS] = {0, 0.37, 1};
-    double middle[2][3], least = INFINITY, most = 0;
-    for (int k = 0; k < 2; ++k) middle_of(s[k], bare[k], middle[k]);
-    for (int look = 0; look < LOOKS; ++look) {
-        const double t = times->lo[2] + looks[look] * (times->hi[2] - times->lo[2]);
-        double x[2][3], way[3];
-        memcpy(x, middle, sizeof x);
-        for (int k = 0; k < 2; ++k)
-            if (surface_move_outward(s[k], 0, t, 1, x[k]) != IMP_STATUS_OK) return false;
-        for (int i = 0; i < 3; ++i) way[i] = x[1][i] - x[0][i];
-        const double apart = sqrt(slip_dot(way, way));
-        if (!(apart >= least)) least = apart;
-        if (!(apart <= most)) most = apart;
-    }
-    return most - least > SURELY_APART * most;
-}
-
 imp_status surface_pair_slip(const surface *const s[2], const imp_model bare[2][3],
                              const imp_region *times, double moment, double *slip, int *asked)
 {
@@ -159,7 +125,6 @@ imp_status surface_pair_slip(const surface *const s[2], const imp_model bare[2][
     double own[2], rest = 0;
     *slip = INFINITY;
     if (!slip_moves_rigidly(s[0]) || !slip_moves_rigidly(s[1])) return IMP_STATUS_OK;
-    if (surely_moves(s, bare, times)) return IMP_STATUS_OK;
     for (int k = 0; k < 2; ++k) {
         *asked = k;
         const imp_status status =

@@ -24,8 +24,9 @@ typedef struct span {
 
 /* --- Memory ----------------------------------------------------------------------------------- */
 
-/* Blocks of 1, 2, 4 and 8 KiB, and more of these: most trees of large scenes are small. */
-static const arena_growth posing_growth = {1024, 2, 8192};
+/* The first block holds what the root's first halves begin with: most trees of large scenes are
+ * small. */
+static const arena_growth posing_growth = {sizeof(span) + sizeof(shape), sizeof(double), 50, 8192};
 
 /* --- Shapes ----------------------------------------------------------------------------------- */
 

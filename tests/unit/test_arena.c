@@ -9,7 +9,7 @@
 #include "core/base/arena.h"
 #include "tests/support/suite.h"
 
-static const arena_growth sizes = {256, 4, 4096};
+static const arena_growth sizes = {256, 256, 400, 4096};
 
 START_TEST(rooms_lie_apart_and_keep_what_is_in_them)
 {
@@ -127,7 +127,7 @@ START_TEST(a_store_keeps_no_more_than_it_says)
     arena_store *store = arena_store_new();
     ck_assert_ptr_nonnull(store);
     const size_t capacity = ARENA_STORE_MOST / 8;
-    const arena_growth large = {capacity, 1, capacity};
+    const arena_growth large = {capacity, capacity, 100, capacity};
     arena a = {NULL};
     size_t made = 0, kept = 0;
     for (int k = 0; k < 20; ++k)
