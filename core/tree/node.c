@@ -81,8 +81,8 @@ static void node_begin(const tree *t, const node_place *place, node *n)
     n->surface = place->surface;
     n->many = place->many;
     n->parent = place->parent;
-    n->along = place->along;
-    n->side = place->side;
+    n->along = (unsigned char)place->along;
+    n->side = (unsigned char)place->side;
     n->follows_net = t->plan.kind == TREE_MODELS && follows_net(n);
 }
 
@@ -101,20 +101,40 @@ imp_code node_fill(tree *t, const node_place *place, node *n, tree_growth *growt
     return code;
 }
 
-/* Puts a reserved, filled node into the slot, or gives it back if the slot holds another thread's
- * node already. Returns the node in the slot. */
-static node *node_publish(tree *t, node *n, _Atomic(node *) *slot)
+/* Returns the half in the list of halves that is of this kind; NULL: there is none. Most nodes have
+ * two. */
+static node *find_half(node *first, parameter j, int side, bool is_bare)
 {
-    node *there = NULL;
-    if (atomic_compare_exchange_strong_explicit(slot, &there, n, memory_order_acq_rel,
-                                                memory_order_acquire))
-        return n;
-    node_give_back(t, n);
-    return there;
+    while (first != NULL && (first->along != j || first->side != side || first->is_bare != is_bare))
+        first = first->sibling;
+    return first;
 }
 
-static imp_code node_make(tree *t, const node_place *place, _Atomic(node *) *slot, node **made,
-                          tree_growth *growth, imp_error *error)
+static node *half_of(const node *parent, parameter j, int side, bool is_bare)
+{
+    node *first = atomic_load_explicit(&parent->halves, memory_order_acquire);
+    return find_half(first, j, side, is_bare);
+}
+
+/* Adds a reserved, filled node to its parent's halves, or gives it back if another thread has added
+ * one like it. Returns the one that is there. */
+static node *node_publish(tree *t, node *n)
+{
+    node *first = atomic_load_explicit(&n->parent->halves, memory_order_acquire);
+    do {
+        node *there = find_half(first, n->along, n->side, n->is_bare);
+        if (there != NULL) {
+            node_give_back(t, n);
+            return there;
+        }
+        n->sibling = first;
+    } while (!atomic_compare_exchange_weak_explicit(&n->parent->halves, &first, n,
+                                                    memory_order_acq_rel, memory_order_acquire));
+    return n;
+}
+
+static imp_code node_make(tree *t, const node_place *place, node **made, tree_growth *growth,
+                          imp_error *error)
 {
     node *n = node_reserve(t, growth);
     if (n == NULL) return error_set_memory(error);
@@ -123,7 +143,7 @@ static imp_code node_make(tree *t, const node_place *place, _Atomic(node *) *slo
         node_give_back(t, n);
         return code;
     }
-    *made = node_publish(t, n, slot);
+    *made = node_publish(t, n);
     growth->nodes += *made == n;
     return IMP_SUCCESS;
 }
@@ -170,30 +190,25 @@ static node_place place_of_half(node *parent, parameter j, int side)
 imp_code node_child(tree *t, node *parent, parameter j, int side, node **child, tree_growth *growth,
                     imp_error *error)
 {
-    _Atomic(node *) *slot = &parent->child[j][side];
-    node *made = atomic_load_explicit(slot, memory_order_acquire);
-    if (made == NULL) {
-        const node_place half = place_of_half(parent, j, side);
-        const imp_code code = node_make(t, &half, slot, &made, growth, error);
-        if (code != IMP_SUCCESS) return code;
-    }
-    *child = made;
-    return IMP_SUCCESS;
+    *child = half_of(parent, j, side, false);
+    if (*child != NULL) return IMP_SUCCESS;
+    const node_place half = place_of_half(parent, j, side);
+    return node_make(t, &half, child, growth, error);
 }
 
 imp_code node_child_bare(tree *t, node *parent, parameter j, int side, node **child,
                          tree_growth *growth, imp_error *error)
 {
     assert(parent->many == NULL && j != PARAMETER_T);
-    *child = atomic_load_explicit(&parent->child[j][side], memory_order_acquire);
-    if (*child == NULL) *child = atomic_load_explicit(&parent->bare[j][side], memory_order_acquire);
+    *child = half_of(parent, j, side, false);
+    if (*child == NULL) *child = half_of(parent, j, side, true);
     if (*child != NULL) return IMP_SUCCESS;
     node *n = node_reserve(t, growth);
     if (n == NULL) return error_set_memory(error);
     const node_place half = place_of_half(parent, j, side);
     node_begin(t, &half, n);
     n->bounded = n->is_bare = true;
-    *child = node_publish(t, n, &parent->bare[j][side]);
+    *child = node_publish(t, n);
     return IMP_SUCCESS;
 }
 

@@ -60,19 +60,18 @@ typedef struct node {
     bool bounded;               /* f, e, lo, hi are all finite */
     bool is_bare;               /* only the region and `bounded`, which is true, are set above */
     bool follows_net; /* its models are made from its net, if that is bicubic (net_series.h) */
-    const surface *surface; /* whose points are bounded: a piece, or the whole */
-    const cluster *many;    /* the pieces it bounds; NULL: no cluster */
-    struct node *parent;    /* NULL: it is the root */
-    parameter along;        /* which half of the parent it is */
-    int side;
-    _Atomic(const net *) net;           /* NULL: not made yet; &net_none: it has none */
-    struct shape *shape;                /* the shape that is moved rigidly, and */
-    struct span *span;                  /* its poses (posing.h); NULL: not known */
-    const struct shape_model *still;    /* model of the shape; the node is its image under */
-    const struct pose_lanes *pose;      /* the pose (posed_terms.h); NULL: use e, always valid */
-    double posed_e[4];                  /* the rest of e beside posed terms, then 0; length */
-    _Atomic(struct node *) child[3][2]; /* NULL: not made yet */
-    _Atomic(struct node *) bare[2][2];  /* halves along u and v without models */
+    unsigned char along, side;       /* which half of the parent it is: a parameter, 0 or 1 */
+    const surface *surface;          /* whose points are bounded: a piece, or the whole */
+    const cluster *many;             /* the pieces it bounds; NULL: no cluster */
+    struct node *parent;             /* NULL: it is the root */
+    struct node *sibling;            /* another half of the parent, or NULL */
+    _Atomic(const net *) net;        /* NULL: not made yet; &net_none: it has none */
+    struct shape *shape;             /* the shape that is moved rigidly, and */
+    struct span *span;               /* its poses (posing.h); NULL: not known */
+    const struct shape_model *still; /* model of the shape; the node is its image under */
+    const struct pose_lanes *pose;   /* the pose (posed_terms.h); NULL: use e, always valid */
+    double posed_e[4];               /* the rest of e beside posed terms, then 0; length */
+    _Atomic(struct node *) halves;   /* the last one made; NULL: there is none */
 } node;
 
 typedef struct tree tree;
