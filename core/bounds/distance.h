@@ -102,6 +102,7 @@ typedef struct distance_sides {
     const node *node[2], *root[2];
     size_t still_maps[2];  /* surface_still_maps of each surface */
     distance_slips *slips; /* the caller's, of the two surfaces */
+    arena_store *store;    /* of temporary memory; NULL: the heap */
     bool takes_orbits;     /* whether one point may stand for others, screws included */
     bool is_audited;
 } distance_sides;

@@ -78,7 +78,7 @@ static imp_code take_shadow(const piece_course *of, shadow *s, imp_error *error)
     const surface_course *c = &of->course;
     const vec3 center = vec3_from(c->center), axis = vec3_from(c->axis);
     *s = (shadow){.count = 4 * of->other->count};
-    s->of = malloc(s->count * sizeof *s->of);
+    s->of = arena_store_room(of->other->store, s->count * sizeof *s->of);
     if (s->of == NULL) return error_set_memory(error);
     for (size_t k = 0; k < s->count; ++k) {
         const vec3 x = seen_by(c, of->other->of[k / 4][k % 4]), from = vec3_sub(x, center);
@@ -242,7 +242,7 @@ imp_code piece_planes_cut(const piece_course *of, double gamma_clear, const time
         if (piece_view_is_useless(&all, window)) break;
     }
     if (all.hint.is_known) find_facing(of, &s, &all.hint);
-    free(s.of);
+    arena_store_free_room(of->other->store, s.of);
     if (!piece_view_is_useless(&all, window)) *view = all;
     return IMP_SUCCESS;
 }

@@ -54,12 +54,13 @@ static const surface *piece_at(const surface *s, size_t k)
 }
 
 imp_code piece_corners_take(const surface *s, const time_window *times, size_t most,
-                            piece_corners *corners, bool *known, imp_error *error)
+                            arena_store *store, piece_corners *corners, bool *known,
+                            imp_error *error)
 {
     const size_t all = surface_piece_count(s) > 0 ? surface_piece_count(s) : 1;
-    *corners = (piece_corners){.count = all < most ? all : most};
+    *corners = (piece_corners){.store = store, .count = all < most ? all : most};
     *known = false;
-    corners->of = malloc(corners->count * sizeof *corners->of);
+    corners->of = arena_store_room(store, corners->count * sizeof *corners->of);
     if (corners->of == NULL) return error_set_memory(error);
     for (size_t k = 0; k < corners->count; ++k) {
         const surface *piece = piece_at(s, k * all / corners->count);
@@ -81,7 +82,7 @@ imp_code piece_corners_take(const surface *s, const time_window *times, size_t m
 
 void piece_corners_clear(piece_corners *corners)
 {
-    free(corners->of);
+    arena_store_free_room(corners->store, corners->of);
     corners->of = NULL;
 }
 
@@ -138,8 +139,8 @@ static imp_code cut_with(const piece_search *q, size_t most, bool sides[2], dist
         if (has_corners(q, side, most))
             corners[side] = q->whole[side];
         else
-            code = piece_corners_take(q->of->root[side]->surface, &q->times, most, &corners[side],
-                                      &known, error);
+            code = piece_corners_take(q->of->root[side]->surface, &q->times, most, q->of->store,
+                                      &corners[side], &known, error);
     }
     for (int side = 0; side < 2 && code == IMP_SUCCESS; ++side) {
         piece_view view;
@@ -171,8 +172,8 @@ static imp_code find_bare(piece_search *q, int side, imp_model bare[3], bool *kn
         *known = node_bare_models(root, bare);
         return IMP_SUCCESS;
     }
-    const imp_code code =
-        piece_corners_take(root->surface, &q->times, PIECES_MOST, corners, known, error);
+    const imp_code code = piece_corners_take(root->surface, &q->times, PIECES_MOST, q->of->store,
+                                             corners, known, error);
     const double most = sum_upper(corners->reach * (1 + 0x1p-40), corners->slack);
     for (int i = 0; i < 3; ++i) bare[i] = imp_between(-most, most);
     if (!*known) piece_corners_clear(corners);

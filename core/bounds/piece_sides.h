@@ -20,15 +20,17 @@ enum { PIECES_MOST = 2048 };
 /* Points of all pieces of a surface before its last maps (surface_course): each point of a piece is
  * within `slack` of a convex combination of the piece's four corners. */
 typedef struct piece_corners {
+    arena_store *store; /* of its memory; NULL: the heap */
     vec3 (*of)[4];
     size_t count;
     double slack, reach; /* reach >= |x| of each corner; length */
 } piece_corners;         /* piece_corners_clear frees */
 
-/* Takes all pieces, or at most `most` of them, spread over all. *known false: pieces move by
- * themselves, or have no bounds over the times. */
+/* Takes all pieces, or at most `most` of them, spread over all, in memory of the store. *known
+ * false: pieces move by themselves, or have no bounds over the times. */
 imp_code piece_corners_take(const surface *s, const time_window *times, size_t most,
-                            piece_corners *corners, bool *known, imp_error *error);
+                            arena_store *store, piece_corners *corners, bool *known,
+                            imp_error *error);
 void piece_corners_clear(piece_corners *corners);
 
 /* The two surfaces, b's points at all times as a sees them. */

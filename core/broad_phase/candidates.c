@@ -219,7 +219,7 @@ void candidates_clear(candidate_list *list)
     for (size_t k = 0; list->owns_trees && list->candidates != NULL && k < list->count; ++k)
         tree_free(list->candidates[k].tree);
     for (size_t k = 0; list->half_planes > 0 && list->candidates != NULL && k < list->count; ++k)
-        free(list->candidates[k].half);
+        arena_store_free_room(list->store, list->candidates[k].half);
     if (list->candidates != list->at_hand) arena_store_free_room(list->store, list->candidates);
     arena_store_free_room(list->store, list->pairs);
     *list = (candidate_list){.store = list->store};

@@ -35,7 +35,7 @@ static candidate *own_candidate(candidate *slot, const candidate *from, imp_stat
     *slot = (candidate){
         .body = from->body, .surface = from->surface, .left_out = from->left_out, .eval_error = -1};
     if (from->half != NULL) {
-        slot->half = malloc(sizeof *slot->half);
+        slot->half = arena_store_room(NULL, sizeof *slot->half); /* its list has no store */
         if (slot->half == NULL) return NULL;
         *slot->half = *from->half;
     }
@@ -61,7 +61,7 @@ imp_code candidates_part(candidate_list *list, const candidate_list *whole, size
     list->pairs = arena_store_room(NULL, count * sizeof *list->pairs);
     bool ok = list->candidates != NULL && list->pairs != NULL;
     for (size_t k = 0; ok && k < count; ++k) {
-        list->pairs[k] = (candidate_pair){.slips = pairs[k].slips};
+        list->pairs[k] = (candidate_pair){.side = {NULL, NULL}};
         for (int side = 0; side < 2; ++side) {
             const candidate *from = pairs[k].side[side];
             const size_t before = side == 0 ? 0 : span[0].count;

@@ -38,7 +38,7 @@ static imp_code add_half_plane(collection *all, frame_list *frames, size_t *of_s
                                const half_plane *half, imp_error *error)
 {
     frame *made = frame_list_next(frames);
-    half_plane *own = made != NULL ? malloc(sizeof *own) : NULL;
+    half_plane *own = made != NULL ? arena_store_room(frames->store, sizeof *own) : NULL;
     if (own == NULL) return error_set_memory(error);
     *made = frames->at[*of_side];
     *own = *half;
@@ -97,6 +97,7 @@ imp_code frames_halve_pair(collection *all, frame_list *frames, size_t k, double
 
 void frames_forget_half_planes(candidate_list *list, const frame_list *frames)
 {
-    for (size_t f = 0; f < frames->count; ++f) free(frames->at[f].made.half);
+    for (size_t f = 0; f < frames->count; ++f)
+        arena_store_free_room(list->store, frames->at[f].made.half);
     list->half_planes = 0;
 }

@@ -58,8 +58,8 @@ static imp_code begin_task(clearance_search *c, imp_error *error)
 {
     if (renew_trees(c, error) != IMP_SUCCESS) return error->code;
     const clearance_group *group = clearance_group_of(c);
-    imp_clearance *grown =
-        array_reserve(c->answers, c->current, &c->answer_capacity, sizeof *c->answers);
+    imp_clearance *grown = arena_store_reserve(scene_store(c->scene), c->answers, c->current,
+                                               &c->answer_capacity, sizeof *c->answers);
     if (grown == NULL) return error_set_memory(error);
     c->answers = grown;
     c->answer = clearance_blank_answer(c, c->current);

@@ -20,6 +20,7 @@ imp_code clearance_begin_distance(clearance_search *c, const clearance_group *gr
         .slip = c->list->slip,
         .candidates = c->list->pairs,
         .stats = c->stats,
+        .heap = {.store = scene_store(c->scene)},
         .proof = c->proof != NULL ? &c->proof->distance : NULL};
     const imp_code code = min_distance_begin(&c->distance, group->first, group->count, error);
     if (code == IMP_SUCCESS)

@@ -55,7 +55,9 @@ static imp_code add_groups(clearance_search *c, imp_error *error)
 {
     const size_t n = imp_scene_body_count(c->scene);
     if (awaits_candidates(c)) return IMP_SUCCESS;
-    c->groups = malloc((c->asked.each ? body_pair_count(c->scene) + 1 : 1) * sizeof *c->groups);
+    c->groups =
+        arena_store_room(scene_store(c->scene),
+                         (c->asked.each ? body_pair_count(c->scene) + 1 : 1) * sizeof *c->groups);
     if (c->groups == NULL) return error_set_memory(error);
     if (!c->asked.each) add_group(c, SIZE_MAX, SIZE_MAX);
     for (size_t a = 0; c->asked.each && a < n; ++a)
@@ -72,7 +74,7 @@ imp_code clearance_new(imp_scene *scene, bool any_pair, const imp_options *optio
     if (options->baseline != IMP_BASELINE_NONE)
         return error_set(error, IMP_ERROR_USAGE,
                          "baseline: must be 0 where the minimum distance is asked for");
-    clearance_search *c = calloc(1, sizeof *c);
+    clearance_search *c = arena_store_zeroed(scene_store(scene), sizeof *c);
     if (c == NULL) return error_set_memory(error);
     c->scene = scene;
     c->any_pair = any_pair;
@@ -90,14 +92,15 @@ imp_code clearance_new(imp_scene *scene, bool any_pair, const imp_options *optio
 imp_code clearance_part(const clearance_search *whole, const size_t body[2],
                         const limit_watch *watch, clearance_search **made, imp_error *error)
 {
-    clearance_search *c = calloc(1, sizeof *c);
+    arena_store *store = scene_store(whole->scene);
+    clearance_search *c = arena_store_room(store, sizeof *c);
     if (c == NULL) return error_set_memory(error);
     *c = (clearance_search){.scene = whole->scene,
                             .any_pair = true,
                             .options = whole->options,
                             .asked = whole->asked,
                             .watch = watch,
-                            .groups = malloc(sizeof *c->groups)};
+                            .groups = arena_store_room(store, sizeof *c->groups)};
     if (c->groups == NULL) {
         clearance_free(c);
         return error_set_memory(error);
@@ -132,9 +135,10 @@ void clearance_free(clearance_search *c)
     impact_clear(&c->violation);
     candidates_clear(&c->own);
     inside_free(c->insides);
-    free(c->answers);
-    free(c->groups);
-    free(c);
+    arena_store *store = scene_store(c->scene);
+    arena_store_free_room(store, c->answers);
+    arena_store_free_room(store, c->groups);
+    arena_store_free_room(store, c);
 }
 
 /* --- Tasks ------------------------------------------------------------------------------------ */
@@ -177,7 +181,7 @@ static imp_code add_candidate_groups(clearance_search *c, const candidate_list *
 {
     size_t count = 0;
     for (size_t k = 0; k < list->pair_count; ++k) count += candidate_pair_is_first(list->pairs, k);
-    c->groups = malloc((count + 1) * sizeof *c->groups);
+    c->groups = arena_store_room(scene_store(c->scene), (count + 1) * sizeof *c->groups);
     if (c->groups == NULL) return error_set_memory(error);
     for (size_t k = 0; k < list->pair_count; ++k)
         if (candidate_pair_is_first(list->pairs, k))

@@ -20,6 +20,7 @@ void clearance_begin_violation(clearance_search *c)
                             .baseline = IMP_BASELINE_NONE,
                             .candidate_pairs = c->list->pairs,
                             .stats = c->stats,
+                            .heap = {.store = scene_store(c->scene)},
                             .proof = c->proof != NULL ? &c->proof->contact : NULL,
                             .t_lower = answer->t_start};
     c->tested = 0;

@@ -102,14 +102,14 @@ static int farthest_first(const void *x, const void *y)
 imp_code min_distance_begin(min_distance *m, size_t first, size_t count, imp_error *error)
 {
     m->upper = m->stuck = INFINITY;
-    m->starts = malloc((count + 1) * sizeof *m->starts);
+    m->starts = arena_store_room(m->heap.store, (count + 1) * sizeof *m->starts);
     if (m->starts == NULL) return error_set_memory(error);
     m->start_capacity = count + 1;
     for (size_t k = 0; k < count; ++k) {
         const imp_code code = add_start(m, (uint32_t)(first + k), error);
         if (code != IMP_SUCCESS) return code;
     }
-    qsort(m->starts, m->start_count, sizeof *m->starts, farthest_first);
+    if (m->start_count > 1) qsort(m->starts, m->start_count, sizeof *m->starts, farthest_first);
     return IMP_SUCCESS;
 }
 
@@ -286,7 +286,7 @@ imp_code min_distance_advance(min_distance *m, min_distance_state *state, imp_er
 
 void min_distance_clear(min_distance *m)
 {
-    free(m->starts);
+    arena_store_free_room(m->heap.store, m->starts);
     m->starts = NULL;
     m->start_count = m->start_capacity = 0;
     pair_heap_clear(&m->heap);

@@ -19,6 +19,7 @@ static distance_sides sides_of(const pair *p, candidate_pair *both, bool keeps_p
                             .root = {tree_root(a->tree), tree_root(b->tree)},
                             .still_maps = {a->still_maps, b->still_maps},
                             .slips = &both->slips,
+                            .store = tree_store(a->tree),
                             .takes_orbits = !keeps_proof,
                             .is_audited = tree_is_audited(a->tree)};
 }

@@ -64,8 +64,8 @@ static bool is_nearest(const imp_query *query)
     return query->clearance != NULL && !clearance_is_each(query->clearance) && query->divided == 0;
 }
 
-/* A search for a contact asks for slips that are far below gamma_clear, which never exceeds gamma by
- * as much as this. */
+/* A search for a contact uses slips that are far below gamma_clear, which is always less than this.
+ */
 static double slip_useful(const imp_query *query)
 {
     const bool is_contact = query->clearance == NULL && query->impact.spread == NULL;
@@ -119,6 +119,8 @@ imp_code query_collect_part(imp_query *part, const imp_query *whole, size_t inde
     atomic_fetch_add(&whole->parts->bytes, shared.bytes);
     if (code == IMP_SUCCESS)
         code = candidates_part(&part->candidates, &framed, 0, count, &part->stats, error);
+    for (size_t k = 0; k < part->candidates.pair_count; ++k)
+        part->candidates.pairs[k].slips = framed.pairs[k].slips;
     candidates_clear(&framed);
     part->impact.gamma_clear = query_searched_gamma_clear(part, part->gamma_clear);
     part->impact.candidate_pairs = part->candidates.pairs;

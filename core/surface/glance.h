@@ -44,7 +44,7 @@ double glances_vary(const surface_glance *a, const surface_glance *b);
  * this times the distance of a point from the middle, up to rounding. */
 double glance_turns(const surface_glance *g);
 
-/* Whether b's middle is farther than `most` from a's line at the first time, beyond all rounding. */
+/* Whether b's middle is surely farther than `most` from a's line at the first time. */
 bool glances_are_off_line(const surface_glance *a, const surface_glance *b, double most);
 
 #endif

@@ -5,7 +5,6 @@
 #include "core/tree/hierarchy_internal.h"
 
 #include <assert.h>
-#include <stdlib.h>
 #include <string.h>
 
 #include <impinge/quad.h>
@@ -16,27 +15,29 @@
 
 /* The caller holds it. *made is NULL where the watch ended it. */
 static imp_code hierarchy_new(const surface *s, double t_start, double t_end,
-                              const limit_watch *watch, hierarchy **made, imp_error *error)
+                              const limit_watch *watch, arena_store *store, hierarchy **made,
+                              imp_error *error)
 {
     const imp_region times = region_make((double[3]){0, 0, t_start}, (double[3]){0, 0, t_end});
-    hierarchy *h = calloc(1, sizeof *h);
+    hierarchy *h = arena_store_room(store, sizeof *h);
     if (h == NULL) return error_set_memory(error);
-    *h = (hierarchy){.holders = 1,
+    *h = (hierarchy){.store = store,
+                     .holders = 1,
                      .lo = t_start,
                      .hi = t_end,
                      .c = times.c[2],
                      .d = times.d[2],
                      .count = surface_piece_count(s)};
-    h->order = malloc(h->count * sizeof *h->order);
-    h->clusters = malloc((h->count - 1) * sizeof *h->clusters);
-    cluster_bound *pieces = malloc(h->count * sizeof *pieces);
-    spot *spots = malloc(h->count * sizeof *spots);
+    h->order = arena_store_room(store, h->count * sizeof *h->order);
+    h->clusters = arena_store_room(store, (h->count - 1) * sizeof *h->clusters);
+    cluster_bound *pieces = arena_store_room(store, h->count * sizeof *pieces);
+    spot *spots = arena_store_room(store, h->count * sizeof *spots);
     bool ended = false;
     const imp_code code = h->order == NULL || h->clusters == NULL || pieces == NULL || spots == NULL
                               ? error_set_memory(error)
                               : hierarchy_fill(h, s, watch, pieces, spots, &ended, error);
-    free(spots);
-    free(pieces);
+    arena_store_free_room(store, spots);
+    arena_store_free_room(store, pieces);
     *made = code == IMP_SUCCESS && !ended ? h : NULL;
     if (*made == NULL) hierarchy_release(h);
     return code;
@@ -52,9 +53,10 @@ void hierarchy_release(hierarchy *h)
 {
     if (h == NULL) return;
     if (atomic_fetch_sub_explicit(&h->holders, 1, memory_order_acq_rel) > 1) return;
-    free(h->order);
-    free(h->clusters);
-    free(h);
+    arena_store *store = h->store;
+    arena_store_free_room(store, h->order);
+    arena_store_free_room(store, h->clusters);
+    arena_store_free_room(store, h);
 }
 
 static void release_kept(void *h) { hierarchy_release(h); }
@@ -72,7 +74,7 @@ static hierarchy *find_kept(instance_shelf *shelf, double t_start, double t_end)
 
 /* Two threads may make it at once; both are equal, and the first one stays. */
 imp_code hierarchy_of(const surface *s, double t_start, double t_end, const limit_watch *watch,
-                      hierarchy **found, imp_error *error)
+                      arena_store *store, hierarchy **found, imp_error *error)
 {
     assert(surface_piece_count(s) >= 2);
     instance_shelf *shelf = surface_origin(s, 0)->shelf;
@@ -81,7 +83,7 @@ imp_code hierarchy_of(const surface *s, double t_start, double t_end, const limi
     pthread_mutex_unlock(&shelf->lock);
     if (*found != NULL) return IMP_SUCCESS;
     hierarchy *made = NULL;
-    const imp_code code = hierarchy_new(s, t_start, t_end, watch, &made, error);
+    const imp_code code = hierarchy_new(s, t_start, t_end, watch, store, &made, error);
     if (code != IMP_SUCCESS || made == NULL) return code;
     pthread_mutex_lock(&shelf->lock);
     *found = find_kept(shelf, t_start, t_end);

@@ -32,10 +32,11 @@ typedef struct cluster {
 } cluster;
 
 /* Finds or makes the hierarchy over the times t_start..t_end, finite and within the domain, and
- * holds it for the caller. Precondition: `s` has two pieces or more. Errors are those of
- * node_child; *found is NULL where `watch` ended it. Any thread. */
+ * holds it for the caller. Its memory is of the store, which must outlive the instance; NULL: of
+ * the heap. Precondition: `s` has two pieces or more. Errors are those of node_child; *found is
+ * NULL where `watch` ended it. Any thread. */
 imp_code hierarchy_of(const surface *s, double t_start, double t_end, const limit_watch *watch,
-                      hierarchy **found, imp_error *error);
+                      arena_store *store, hierarchy **found, imp_error *error);
 void hierarchy_release(hierarchy *h); /* h may be NULL */
 
 const cluster *hierarchy_root(const hierarchy *h);

@@ -9,6 +9,7 @@
  */
 
 struct hierarchy {
+    arena_store *store; /* of its memory; NULL: the heap */
     _Atomic(size_t) holders;
     double lo, hi, c, d; /* the times, as in imp_region */
     uint32_t *order;     /* the pieces; those of a cluster are adjacent */

@@ -190,19 +190,26 @@ static node_place place_of_half(node *parent, parameter j, int side)
 imp_code node_child(tree *t, node *parent, parameter j, int side, node **child, tree_growth *growth,
                     imp_error *error)
 {
-    *child = half_of(parent, j, side, false);
-    if (*child != NULL) return IMP_SUCCESS;
-    const node_place half = place_of_half(parent, j, side);
-    return node_make(t, &half, child, growth, error);
+    node *there = half_of(parent, j, side, false);
+    if (there == NULL) {
+        const node_place half = place_of_half(parent, j, side);
+        const imp_code code = node_make(t, &half, &there, growth, error);
+        if (code != IMP_SUCCESS) return code;
+    }
+    *child = there;
+    return IMP_SUCCESS;
 }
 
 imp_code node_child_bare(tree *t, node *parent, parameter j, int side, node **child,
                          tree_growth *growth, imp_error *error)
 {
     assert(parent->many == NULL && j != PARAMETER_T);
-    *child = half_of(parent, j, side, false);
-    if (*child == NULL) *child = half_of(parent, j, side, true);
-    if (*child != NULL) return IMP_SUCCESS;
+    node *there = half_of(parent, j, side, false);
+    if (there == NULL) there = half_of(parent, j, side, true);
+    if (there != NULL) {
+        *child = there;
+        return IMP_SUCCESS;
+    }
     node *n = node_reserve(t, growth);
     if (n == NULL) return error_set_memory(error);
     const node_place half = place_of_half(parent, j, side);

@@ -123,6 +123,7 @@ void tree_box(const tree *t, double lo[3], double hi[3]); /* the root's */
 const surface *tree_surface(const tree *t);
 bool tree_is_of(const tree *t, const tree_plan *plan);
 bool tree_is_audited(const tree *t);
+arena_store *tree_store(const tree *t); /* of the plan */
 
 /* Returns in *child the half of `parent` below (side 0) or above (1) its centre along j, made now
  * if it does not exist. What this call makes is added to *growth. IMP_ERROR_PLUGIN names the type,

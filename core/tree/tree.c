@@ -22,8 +22,8 @@ static node *own_root(tree *t)
 static imp_code make_hierarchy(tree *t, tree_growth *growth, imp_error *error)
 {
     if (surface_piece_count(t->surface) <= 1 || t->pieces != NULL) return IMP_SUCCESS;
-    const imp_code code =
-        hierarchy_of(t->surface, t->plan.t_start, t->plan.t_end, &growth->watch, &t->pieces, error);
+    const imp_code code = hierarchy_of(t->surface, t->plan.t_start, t->plan.t_end, &growth->watch,
+                                       t->plan.store, &t->pieces, error);
     if (code != IMP_SUCCESS) return code;
     growth->ended = t->pieces == NULL;
     if (growth->ended) return IMP_ERROR_USAGE; /* without a text: whoever set the watch knows */
@@ -193,3 +193,5 @@ bool tree_is_of(const tree *t, const tree_plan *plan)
 }
 
 bool tree_is_audited(const tree *t) { return t->plan.audit != NULL; }
+
+arena_store *tree_store(const tree *t) { return t->plan.store; }

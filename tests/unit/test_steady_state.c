@@ -7,7 +7,7 @@
 #include "tests/support/query_helpers.h"
 #include "tools/check/malloc_watch.h"
 
-/* The loop of a simulation: change numbers, ask, read the answer. Once it has run for a while, it
+/* The loop of a simulation: change numbers, ask for contact and distance, read the answers. Once it has run for a while, it
  * allocates nothing: neither core (alloc_failure.h) nor plugins and libc (malloc_watch.h). */
 
 static imp_registry *registry;
@@ -35,7 +35,6 @@ typedef struct way {
     uint32_t rank;
     size_t extent[2];
     double number[NUMBERS_MAX]; /* around which it changes */
-    bool has_pieces;            /* whose hierarchy is allocated for each change */
 } way;
 
 static const double degree_3[2] = {3, 3};
@@ -69,16 +68,14 @@ static const way *list_ways(void)
                    .name = "size",
                    .rank = 1,
                    .extent = {3},
-                   .number = {1, 1.1, 1.2},
-                   .has_pieces = true};
+                   .number = {1, 1.1, 1.2}};
     all[4] = (way){.type = "capsule",
                    .other = ball,
                    .name = "to",
                    .fixed = imp_argument_number("radius", 0.25),
                    .rank = 1,
                    .extent = {3},
-                   .number = {0.1, 0.2, 1},
-                   .has_pieces = true};
+                   .number = {0.1, 0.2, 1}};
     all[5] = (way){.type = "cylinder", .other = ball, .name = "height", .number = {1}};
     all[6] = (way){.type = "cone", .other = patch, .name = "height", .number = {1}};
     all[7] = (way){.type = "disc", .other = ball, .name = "radius", .number = {1}};
@@ -156,6 +153,19 @@ static imp_result answer_of(imp_scene *scene)
     return result;
 }
 
+static imp_clearance distance_of(imp_scene *scene)
+{
+    const imp_options options = imp_options_default(scene);
+    const imp_clearance_options asked = imp_clearance_options_default();
+    imp_clearance answer = {.struct_size = sizeof answer};
+    imp_query *query = imp_clearance_new(scene, &options, &asked, &error);
+    if (query == NULL) ck_abort_msg("%s", error.text);
+    good(imp_query_step(query, 0, &error));
+    good(imp_clearance_get(query, 0, &answer, &error));
+    imp_query_free(query);
+    return answer;
+}
+
 static void check_same(const imp_result *x, const imp_result *y)
 {
     ck_assert(x->verdict == y->verdict && x->stats.pairs == y->stats.pairs);
@@ -188,11 +198,13 @@ START_TEST(a_step_of_a_simulation_allocates_nothing)
             malloc_watch_start();
             change(scene, &all[k], numbers, velocity);
             const imp_result result = answer_of(scene);
+            const imp_clearance distance = distance_of(scene);
             const char *called = malloc_watch_stop();
-            if (step >= WARM_UP * STEPS && !all[k].has_pieces)
+            if (step >= WARM_UP * STEPS)
                 ck_assert_msg(called == NULL && alloc_failure_calls() == 0,
                               "%s, step %d: %s, and core %zu times", all[k].type, step,
                               called != NULL ? called : "plugins: nothing", alloc_failure_calls());
+            ck_assert(distance.lower <= distance.upper && distance.upper < 10);
             contacts += result.verdict == IMP_VERDICT_CONTACT;
         }
         ck_assert_msg(contacts > STEPS / 2, "%s: %u contacts", all[k].type, contacts);
@@ -214,7 +226,9 @@ START_TEST(a_refilled_instance_answers_like_a_new_one)
             change(scene, &all[k], numbers, velocity);
             imp_scene *built = build(&all[k], numbers, velocity);
             const imp_result x = answer_of(scene), y = answer_of(built);
+            const imp_clearance near[2] = {distance_of(scene), distance_of(built)};
             check_same(&x, &y);
+            ck_assert(near[0].lower == near[1].lower && near[0].upper == near[1].upper);
             imp_scene_free(built);
         }
         imp_scene_free(scene);
