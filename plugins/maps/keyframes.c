@@ -128,36 +128,59 @@ static size_t set_path(keyframes_instance *s, const imp_value *values, imp_inter
     return s->path.pieces;
 }
 
+/* Fills an instance that knows its lanes, and has room for as many keys as the checked values. */
+static imp_status fill(keyframes_instance *s, const imp_value *values, imp_create_error *why)
+{
+    const size_t keys = values[TIMES].count, lanes = s->position + s->rotation;
+    const size_t bytes = spline_bytes(SPLINE_CUBIC, keys, lanes, s->rotation > 0);
+    double *room = (double *)(void *)((char *)s->memory + bytes);
+    s->hold = values[HOLD].number[0] != 0;
+    s->path = spline_place(SPLINE_CUBIC, keys, lanes, s->rotation > 0, s->memory);
+    s->positions = keys_keep(&values[POSITIONS], &room);
+    s->rotations = keys_keep(&values[ROTATIONS], &room);
+    const size_t piece = set_path(s, values, (imp_interval *)(void *)room);
+    if (piece == keys - 1) return IMP_STATUS_OK;
+    return imp_reject(
+        why, s->rotation ? ROTATIONS : POSITIONS, (int64_t)piece + 1,
+        "too far from the key before for the time between them: speeds are not finite");
+}
+
+/* Which lanes the values have. */
+static void take_lanes(keyframes_instance *s, const imp_value *values)
+{
+    s->position = imp_is_given(&values[POSITIONS]) ? 3 : 0;
+    s->rotation = imp_is_given(&values[ROTATIONS]) ? 4 : 0;
+}
+
 static imp_status keyframes_create(const imp_value *values, void **self, imp_create_error *why)
 {
     imp_status status = check(values, why);
+    keyframes_instance lanes_of;
     if (status != IMP_STATUS_OK) return status;
-    const size_t position = imp_is_given(&values[POSITIONS]) ? 3 : 0;
-    const size_t rotation = imp_is_given(&values[ROTATIONS]) ? 4 : 0;
-    const size_t keys = values[TIMES].count, lanes = position + rotation;
-    const size_t bytes = spline_bytes(SPLINE_CUBIC, keys, lanes, rotation > 0);
-    keyframes_instance *s = malloc(sizeof *s + bytes + keys * lanes * sizeof(double));
-    imp_interval *key = malloc(keys * lanes * sizeof *key);
-    if (s != NULL && key != NULL) {
-        s->position = position;
-        s->rotation = rotation;
-        s->hold = values[HOLD].number[0] != 0;
-        s->path = spline_place(SPLINE_CUBIC, keys, lanes, rotation > 0, s->memory);
-        double *room = (double *)(void *)((char *)s->memory + bytes);
-        s->positions = keys_keep(&values[POSITIONS], &room);
-        s->rotations = keys_keep(&values[ROTATIONS], &room);
-        size_t piece = set_path(s, values, key);
-        if (piece < keys - 1)
-            status = imp_reject(
-                why, rotation ? ROTATIONS : POSITIONS, (int64_t)piece + 1,
-                "too far from the key before for the time between them: speeds are not finite");
+    take_lanes(&lanes_of, values);
+    const size_t keys = values[TIMES].count, lanes = lanes_of.position + lanes_of.rotation;
+    const size_t bytes = spline_bytes(SPLINE_CUBIC, keys, lanes, lanes_of.rotation > 0);
+    const size_t each = sizeof(double) + sizeof(imp_interval); /* as given, and while it is set */
+    keyframes_instance *s = malloc(sizeof *s + bytes + keys * lanes * each);
+    if (s == NULL) return IMP_STATUS_INTERNAL;
+    take_lanes(s, values);
+    status = fill(s, values, why);
+    if (status == IMP_STATUS_OK)
         *self = s;
-    } else {
-        status = IMP_STATUS_INTERNAL;
-    }
-    free(key);
-    if (status != IMP_STATUS_OK) free(s);
+    else
+        free(s);
     return status;
+}
+
+static imp_status keyframes_renew(void *self, const imp_value *values, imp_create_error *why)
+{
+    keyframes_instance *s = self, lanes_of;
+    const imp_status status = check(values, why);
+    if (status != IMP_STATUS_OK) return status;
+    take_lanes(&lanes_of, values);
+    const bool has_room = lanes_of.position == s->position && lanes_of.rotation == s->rotation &&
+                          values[TIMES].count == s->path.pieces + 1;
+    return has_room ? fill(s, values, why) : IMP_STATUS_UNBOUNDED;
 }
 
 /* --- The map ---------------------------------------------------------------------------------- */
@@ -300,6 +323,7 @@ static imp_status keyframes_write_formula(const void *self, const imp_text_sink 
 static const imp_map_type keyframes = {
     IMP_MAP_FIELDS(keyframes, keyframes),
     .flags = IMP_FLAG_TURNS_EXACTLY,
+    .renew = keyframes_renew,
     .rigid = keyframes_rigid,
     .span = keyframes_span,
     .write_formula = keyframes_write_formula,

@@ -71,23 +71,36 @@ void knots_free(knots *k)
     free(k->last);
 }
 
-bool knots_make(knots *k, const knot_row *row, int degree)
+static void fill(knots *k, const knot_row *row)
 {
-    const size_t p = (size_t)degree;
-    k->degree = degree;
-    k->count = row->length - p - 1;
-    k->at = malloc(row->length * sizeof k->at[0]);
-    k->ends = malloc((k->count + 1) * sizeof k->ends[0]);
-    k->last = malloc(k->count * sizeof k->last[0]);
-    if (k->at == NULL || k->ends == NULL || k->last == NULL) return false;
+    k->spans = 0;
     memcpy(k->at, row->number, row->length * sizeof k->at[0]);
-    for (size_t i = p; i < k->count; ++i)
+    for (size_t i = (size_t)k->degree; i < k->count; ++i)
         if (k->at[i] < k->at[i + 1]) {
             k->ends[k->spans] = k->at[i];
             k->last[k->spans++] = i;
         }
     k->ends[k->spans] = k->at[k->count];
+}
+
+bool knots_make(knots *k, const knot_row *row, int degree)
+{
+    k->degree = degree;
+    k->count = row->length - (size_t)degree - 1;
+    k->at = malloc(row->length * sizeof k->at[0]);
+    k->ends = malloc((k->count + 1) * sizeof k->ends[0]);
+    k->last = malloc(k->count * sizeof k->last[0]);
+    if (k->at == NULL || k->ends == NULL || k->last == NULL) return false;
+    fill(k, row);
     return true;
+}
+
+bool knots_renew(knots *k, const knot_row *row, int degree)
+{
+    const size_t spans = k->spans;
+    if (k->degree != degree || k->count != row->length - (size_t)degree - 1) return false;
+    fill(k, row);
+    return k->spans == spans;
 }
 
 /* --- Asking ----------------------------------------------------------------------------------- */

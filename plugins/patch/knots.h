@@ -46,6 +46,10 @@ void knots_free(knots *k);
 /* Makes knots from checked numbers. False: no memory; call knots_free even then. */
 bool knots_make(knots *k, const knot_row *row, int degree);
 
+/* Makes knots from other checked numbers, in their memory. False: there is no room for these, or
+ * they have another number of spans; then only knots_free is left. */
+bool knots_renew(knots *k, const knot_row *row, int degree);
+
 static inline double knots_lo(const knots *k) { return k->ends[0]; }
 
 static inline double knots_hi(const knots *k) { return k->ends[k->spans]; }

@@ -18,7 +18,7 @@ typedef struct cell_data {
     double velocities[3 * PATCH_SIDE_MAX * PATCH_SIDE_MAX];
     double weights[PATCH_SIDE_MAX * PATCH_SIDE_MAX];
     double along_u[PATCH_SIDE_MAX * PATCH_SIDE_MAX]; /* knots_extract of the span of u */
-    double *along_v;                                 /* of all spans of v */
+    double *along_v; /* likewise, of all spans of v, which all rows of cells need */
     patch_data data;
     patch *patch;
     double *work;
@@ -28,6 +28,12 @@ typedef struct cell_data {
 static size_t cell_matrix_size(const knots *k)
 {
     return (size_t)(k->degree + 1) * (size_t)(k->degree + 1);
+}
+
+size_t nurbs_cell_numbers(const nurbs_instance *f)
+{
+    const int degree[2] = {f->side[0].degree, f->side[1].degree};
+    return patch_points(degree) * (f->moves ? 8 : 4);
 }
 
 /* The control points that matter in cell i, j: neighbours in both directions. */
@@ -92,40 +98,54 @@ static void cell_make(const nurbs_instance *f, size_t i, size_t j, cell_data *te
     cell_set_gauges(c);
 }
 
-/* The matrices of all spans of v, which all rows of cells need. NULL: no memory. */
-static double *cell_matrices(const knots *v)
+void nurbs_free_room(nurbs_instance *f)
 {
-    double *matrices = malloc(v->spans * cell_matrix_size(v) * sizeof *matrices);
-    for (size_t j = 0; matrices != NULL && j < v->spans; ++j)
-        knots_extract(v, j, matrices + j * cell_matrix_size(v));
-    return matrices;
+    if (f->room == NULL) return;
+    free(f->room->along_v);
+    free(f->room->work);
+    free(f->room->patch);
+    free(f->room);
+    f->room = NULL;
 }
 
-bool nurbs_make_cells(const nurbs_instance *f)
+/* False: no memory, and there is no room. */
+static bool make_room(nurbs_instance *f)
 {
-    cell_data *temporary = calloc(1, sizeof *temporary);
-    if (temporary == NULL) return false;
-    temporary->data = (patch_data){.degree = {f->side[0].degree, f->side[1].degree},
-                                   .points = temporary->points,
-                                   .velocities = f->moves ? temporary->velocities : NULL,
-                                   .weights = f->rational ? temporary->weights : NULL};
-    temporary->patch = patch_allocate(&temporary->data);
-    const size_t numbers = patch_points(temporary->data.degree) * (f->moves ? 8 : 4);
-    temporary->work = malloc(numbers * sizeof(double));
-    temporary->along_v = cell_matrices(&f->side[1]);
-    const bool ready =
-        temporary->patch != NULL && temporary->work != NULL && temporary->along_v != NULL;
+    cell_data *made = calloc(1, sizeof *made);
+    if (made == NULL) return false;
+    made->data = (patch_data){.degree = {f->side[0].degree, f->side[1].degree},
+                              .points = made->points,
+                              .velocities = f->moves ? made->velocities : NULL,
+                              .weights = f->rational ? made->weights : NULL};
+    made->patch = patch_allocate(&made->data);
+    made->work = malloc(nurbs_cell_numbers(f) * sizeof(double));
+    made->along_v = malloc(f->side[1].spans * cell_matrix_size(&f->side[1]) * sizeof(double));
+    f->room = made;
+    if (made->patch != NULL && made->work != NULL && made->along_v != NULL) return true;
+    nurbs_free_room(f);
+    return false;
+}
+
+bool nurbs_renew_cells(nurbs_instance *f)
+{
+    if (f->room == NULL && !make_room(f)) return false;
+    const knots *v = &f->side[1];
     double *series = f->series;
-    for (size_t i = 0; ready && i < f->side[0].spans; ++i) {
-        knots_extract(&f->side[0], i, temporary->along_u);
-        for (size_t j = 0; j < f->side[1].spans; ++j, series += numbers)
-            cell_make(f, i, j, temporary, series);
+    for (size_t j = 0; j < v->spans; ++j)
+        knots_extract(v, j, f->room->along_v + j * cell_matrix_size(v));
+    for (size_t i = 0; i < f->side[0].spans; ++i) {
+        knots_extract(&f->side[0], i, f->room->along_u);
+        for (size_t j = 0; j < v->spans; ++j, series += nurbs_cell_numbers(f))
+            cell_make(f, i, j, f->room, series);
     }
-    free(temporary->along_v);
-    free(temporary->work);
-    free(temporary->patch);
-    free(temporary);
-    return ready;
+    return true;
+}
+
+bool nurbs_make_cells(nurbs_instance *f)
+{
+    const bool made = nurbs_renew_cells(f);
+    nurbs_free_room(f);
+    return made;
 }
 
 /* --- Inside one cell -------------------------------------------------------------------------- */

@@ -31,9 +31,10 @@ typedef struct nurbs_instance {
     knots side[2];
     bool moves, rational;
     double *points, *weights,
-        *velocities; /* weights, velocities: NULL if rational, moves are not */
-    cell *cells;     /* spans of v for each span of u */
-    double *series;  /* of all cells */
+        *velocities;        /* weights, velocities: NULL if rational, moves are not */
+    cell *cells;            /* spans of v for each span of u */
+    double *series;         /* of all cells */
+    struct cell_data *room; /* for making cells; kept once the instance was refilled, else NULL */
 } nurbs_instance;
 
 static inline const cell *nurbs_cell(const nurbs_instance *f, size_t i, size_t j)
@@ -41,8 +42,15 @@ static inline const cell *nurbs_cell(const nurbs_instance *f, size_t i, size_t j
     return &f->cells[i * f->side[1].spans + j];
 }
 
+/* Numbers in the series of a cell. */
+size_t nurbs_cell_numbers(const nurbs_instance *f);
+
 /* Makes all cells in memory that is allocated already. False: no temporary memory. */
-bool nurbs_make_cells(const nurbs_instance *f);
+bool nurbs_make_cells(nurbs_instance *f);
+
+/* Likewise, and keeps the temporary memory for the next time. */
+bool nurbs_renew_cells(nurbs_instance *f);
+void nurbs_free_room(nurbs_instance *f);
 
 #define CELL_SLIP 0x1p-51 /* more than (u - k) / h is off by: three roundings, |x| <= 1 */
 

@@ -42,16 +42,9 @@ static bool copy_points(nurbs_instance *f, const nurbs_data *data)
            (f->velocities != NULL || !f->moves);
 }
 
-/* Numbers in the series of a cell. */
-static size_t cell_numbers(const nurbs_instance *f)
-{
-    const int degree[2] = {f->side[0].degree, f->side[1].degree};
-    return patch_points(degree) * (f->moves ? 8 : 4);
-}
-
 static bool allocate_cells(nurbs_instance *f)
 {
-    const size_t cells = f->side[0].spans * f->side[1].spans, numbers = cell_numbers(f);
+    const size_t cells = f->side[0].spans * f->side[1].spans, numbers = nurbs_cell_numbers(f);
     f->cells = calloc(cells, sizeof *f->cells);
     f->series = calloc(cells, numbers * sizeof *f->series);
     return f->cells != NULL && f->series != NULL;
@@ -60,7 +53,7 @@ static bool allocate_cells(nurbs_instance *f)
 /* Time goes with the memory of the cells. */
 static double bytes_of(const nurbs_instance *f)
 {
-    const double each = (double)(sizeof(cell) + cell_numbers(f) * sizeof(double));
+    const double each = (double)(sizeof(cell) + nurbs_cell_numbers(f) * sizeof(double));
     return (double)f->side[0].spans * (double)f->side[1].spans * each;
 }
 
@@ -75,8 +68,22 @@ bool nurbs_make(nurbs_instance *f, const nurbs_data *data, double *bytes)
     return *bytes <= NURBS_CELLS_MAX && allocate_cells(f) && nurbs_make_cells(f);
 }
 
+bool nurbs_renew(nurbs_instance *f, const nurbs_data *data)
+{
+    for (int side = 0; side < 2; ++side)
+        if (!knots_renew(&f->side[side], &data->knots[side], data->degree[side])) return false;
+    const size_t count = f->side[0].count * f->side[1].count;
+    const bool rational = data->weights != NULL && !are_equal(data->weights, count);
+    if (rational != f->rational || (data->velocities != NULL) != f->moves) return false;
+    memcpy(f->points, data->points, 3 * count * sizeof *f->points);
+    if (f->rational) memcpy(f->weights, data->weights, count * sizeof *f->weights);
+    if (f->moves) memcpy(f->velocities, data->velocities, 3 * count * sizeof *f->velocities);
+    return nurbs_renew_cells(f);
+}
+
 void nurbs_clear(nurbs_instance *f)
 {
+    nurbs_free_room(f);
     for (int side = 0; side < 2; ++side) knots_free(&f->side[side]);
     free(f->points);
     free(f->weights);

@@ -24,6 +24,10 @@ typedef struct nurbs_data {
 bool nurbs_make(nurbs_instance *f, const nurbs_data *data, double *bytes);
 void nurbs_clear(nurbs_instance *f);
 
+/* Makes the surface of other data in *f, whose memory it uses again. False: there is no room for
+ * these, or no temporary memory; then only nurbs_clear is left. */
+bool nurbs_renew(nurbs_instance *f, const nurbs_data *data);
+
 /* Implement the callbacks of imp_surface_type; `self` is a nurbs_instance. */
 void nurbs_domain(const void *self, double lo[3], double hi[3]);
 imp_status nurbs_eval(const void *self, size_t n, const double *p, double *x, double *error);

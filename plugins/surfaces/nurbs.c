@@ -91,16 +91,28 @@ static imp_status refuse_size(const nurbs_instance *f, double bytes, imp_create_
                       ceil(bytes * 0x1p-20), NURBS_CELLS_MAX * 0x1p-20);
 }
 
+static nurbs_data data_of(const imp_value *values)
+{
+    return (nurbs_data){.degree = {(int)values[DEGREE].number[0], (int)values[DEGREE].number[1]},
+                        .knots = {row_of(values, 0), row_of(values, 1)},
+                        .points = values[POINTS].number,
+                        .weights = given(&values[WEIGHTS]),
+                        .velocities = given(&values[VELOCITIES])};
+}
+
+static imp_status nurbs_refill(void *self, const imp_value *values, imp_create_error *why)
+{
+    const imp_status status = check(values, why);
+    if (status != IMP_STATUS_OK) return status;
+    const nurbs_data data = data_of(values);
+    return nurbs_renew(self, &data) ? IMP_STATUS_OK : IMP_STATUS_UNBOUNDED;
+}
+
 static imp_status nurbs_create(const imp_value *values, void **self, imp_create_error *why)
 {
     imp_status status = check(values, why);
     if (status != IMP_STATUS_OK) return status;
-    const nurbs_data data = {
-        .degree = {(int)values[DEGREE].number[0], (int)values[DEGREE].number[1]},
-        .knots = {row_of(values, 0), row_of(values, 1)},
-        .points = values[POINTS].number,
-        .weights = given(&values[WEIGHTS]),
-        .velocities = given(&values[VELOCITIES])};
+    const nurbs_data data = data_of(values);
     nurbs_instance *f = calloc(1, sizeof *f);
     double bytes = 0;
     if (f != NULL && nurbs_make(f, &data, &bytes)) {
@@ -120,6 +132,7 @@ static imp_status nurbs_write_formula(const void *self, const imp_text_sink *to)
 
 static const imp_surface_type nurbs = {
     IMP_SURFACE_FIELDS_OF("nurbs", nurbs, nurbs, nurbs_destroy),
+    .renew = nurbs_refill,
     .net = nurbs_net,
     .write_formula = nurbs_write_formula,
     .summary = "NURBS surface of any degree up to 20, rational or not, moving linearly",

@@ -24,7 +24,7 @@ static void good(imp_code code)
 
 /* --- Two bodies ------------------------------------------------------------------------------- */
 
-enum { NUMBERS_MAX = 64, WAYS = 10 };
+enum { NUMBERS_MAX = 64, WAYS = 11 };
 
 /* A type whose arguments change, and what meets it. */
 typedef struct way {
@@ -38,6 +38,7 @@ typedef struct way {
 } way;
 
 static const double degree_3[2] = {3, 3};
+static const double knots[2][7] = {{0, 0, 0, 1, 2, 2, 2}, {0, 0, 0, 1, 2, 2, 2}};
 
 static way patch_of_16(void)
 {
@@ -52,6 +53,17 @@ static way patch_of_16(void)
         const double place[3] = {(k / 4) / 3.0, (k % 4) / 3.0, k % 3 == 0 ? 0.2 : 0};
         memcpy(w.number + 3 * k, place, sizeof place);
     }
+    return w;
+}
+
+static way nurbs_of_16(void)
+{
+    way w = patch_of_16();
+    w.type = "nurbs";
+    w.other = "triangle points=[[1.3,1.4,1.5],[1.7,1.5,1.6],[1.5,1.8,1.7]]";
+    w.fixed = imp_argument_rows("knots", knots[0], 2, 7); /* the default is text that is read */
+    for (int k = 0; k < 16; ++k)
+        for (int i = 0; i < 2; ++i) w.number[3 * k + i] *= 3;
     return w;
 }
 
@@ -92,6 +104,7 @@ static const way *list_ways(void)
                    .extent = {3},
                    .number = {1, 0.5, 0.7}};
     for (int k = 1; k < WAYS; ++k) all[k].moves[0] = -4;
+    all[10] = nurbs_of_16();
     return all;
 }
 
@@ -213,6 +226,57 @@ START_TEST(a_step_of_a_simulation_allocates_nothing)
 }
 END_TEST
 
+/* A ball that goes through the positions of three keys, and turns. */
+static const double key_times[3] = {0, 0.5, 1};
+static const double key_turns[12] = {1, 0, 0, 0, 0.8, 0.6, 0, 0, 0.8, 0, 0.6, 0};
+
+static void change_keys(imp_scene *scene, const double *positions)
+{
+    const imp_argument keys[3] = {imp_argument_list("times", key_times, 3),
+                                  imp_argument_rows("positions", positions, 3, 3),
+                                  imp_argument_rows("rotations", key_turns, 3, 4)};
+    good(imp_scene_set_values(scene, 0, 0, 0, keys, 3, &error));
+}
+
+START_TEST(keys_of_a_motion_change_without_an_allocation)
+{
+    uint64_t random = suite_seed();
+    imp_scene *scene[2];
+    for (int k = 0; k < 2; ++k) {
+        scene[k] = imp_scene_from_pair(registry,
+                                       "ellipsoid radii=0.5,0.4,0.3 ! keyframes times=0,0.5,1 "
+                                       "positions=[[0,0,0],[1,0,0],[2,0,0]] "
+                                       "rotations=[[1,0,0,0],[0.8,0.6,0,0],[0.8,0,0.6,0]]",
+                                       "sphere radius=0.5 center=3,0.1,0.1", &error);
+        ck_assert_msg(scene[k] != NULL, "%s", error.text);
+    }
+    const uint64_t first = random;
+    for (int step = 0; step < ROUNDS * STEPS; ++step) {
+        double positions[9] = {0, 0, 0, 1, 0, 0, 2.5, 0, 0};
+        if (step % STEPS == 0) random = first;
+        for (int i = 0; i < 9; ++i) positions[i] += random_between(&random, -0.1, 0.1);
+        alloc_failure_begin(0);
+        malloc_watch_start();
+        change_keys(scene[0], positions);
+        const imp_result result = answer_of(scene[0]);
+        const imp_clearance distance = distance_of(scene[0]);
+        const char *called = malloc_watch_stop();
+        if (step >= WARM_UP * STEPS)
+            ck_assert_msg(called == NULL && alloc_failure_calls() == 0,
+                          "step %d: %s, and core %zu times", step,
+                          called != NULL ? called : "plugins: nothing", alloc_failure_calls());
+        ck_assert(distance.lower <= distance.upper);
+        ck_assert_int_eq(result.verdict, IMP_VERDICT_CONTACT);
+        if (step < 2) {
+            change_keys(scene[1], positions); /* creates anew, without a spare instance */
+            const imp_result same = answer_of(scene[1]);
+            check_same(&result, &same);
+        }
+    }
+    for (int k = 0; k < 2; ++k) imp_scene_free(scene[k]);
+}
+END_TEST
+
 START_TEST(a_refilled_instance_answers_like_a_new_one)
 {
     uint64_t random = suite_seed();
@@ -317,10 +381,12 @@ END_TEST
 
 int main(void)
 {
-    const TTest *const tests[] = {
-        a_refilled_instance_answers_like_a_new_one, values_of_another_shape_make_a_new_instance,
-        a_refused_change_leaves_the_scene_and_tells_why, isolated_types_are_created_anew,
-        a_step_of_a_simulation_allocates_nothing};
+    const TTest *const tests[] = {a_refilled_instance_answers_like_a_new_one,
+                                  values_of_another_shape_make_a_new_instance,
+                                  a_refused_change_leaves_the_scene_and_tells_why,
+                                  isolated_types_are_created_anew,
+                                  a_step_of_a_simulation_allocates_nothing,
+                                  keys_of_a_motion_change_without_an_allocation};
     return suite_main_with("steady_state", tests, sizeof tests / sizeof *tests, open_registry,
                            close_registry);
 }
