@@ -361,6 +361,10 @@ check_LTLIBRARIES = \
     tests/plugins/liar_refusal.la \
     tests/plugins/liar_remainder.la \
     tests/plugins/liar_renew.la \
+    tests/plugins/renew_leaks.la \
+    tests/plugins/renew_notes.la \
+    tests/plugins/renew_overflows.la \
+    tests/plugins/renew_rounds_up.la \
     tests/plugins/liar_rounding.la \
     tests/plugins/liar_sign.la \
     tests/plugins/liar_single.la \
@@ -463,6 +467,10 @@ tests_plugins_liar_factory_la_LDFLAGS = $(test_plugin_ldflags)
 tests_plugins_liar_grid_la_LDFLAGS = $(test_plugin_ldflags)
 tests_plugins_liar_hang_la_LDFLAGS = $(test_plugin_ldflags)
 tests_plugins_liar_renew_la_LDFLAGS = $(test_plugin_ldflags)
+tests_plugins_renew_leaks_la_LDFLAGS = $(test_plugin_ldflags)
+tests_plugins_renew_notes_la_LDFLAGS = $(test_plugin_ldflags)
+tests_plugins_renew_overflows_la_LDFLAGS = $(test_plugin_ldflags)
+tests_plugins_renew_rounds_up_la_LDFLAGS = $(test_plugin_ldflags)
 tests_plugins_liar_leak_la_LDFLAGS = $(test_plugin_ldflags)
 tests_plugins_liar_map_rate_la_LDFLAGS = $(test_plugin_ldflags)
 tests_plugins_liar_model_time_la_LDFLAGS = $(test_plugin_ldflags)

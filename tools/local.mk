@@ -73,6 +73,7 @@ tools_check = \
     tools/check/subject.c tools/check/subject.h \
     tools/check/subject_domain.c \
     tools/check/subject_text.c \
+    tools/check/heap_growth.c tools/check/heap_growth.h \
     tools/check/table.c tools/check/table.h \
     tools/check/values.c tools/check/values.h \
     tools/check/verb_check.c

@@ -101,6 +101,13 @@ leaves() {
     "$IMPINGE" check mesh --only renewal | grep -q "skip  renewal  *it has no renew"
 }
 
+@test "a renew that breaks another rule is exposed" {
+    exposes renewal renew_rounds_up "renew changes the rounding mode"
+    exposes renewal renew_overflows "renew wrote beyond the imp_create_error it was given"
+    exposes renewal renew_notes "renew notes 'a slope was taken', and create ''"
+    exposes renewal renew_leaks "64 calls of renew leak"
+}
+
 @test "a complaint that is longer than its place is exposed" {
     exposes parameters create_overflows 'create wrote beyond the imp_create_error it was given'
 }

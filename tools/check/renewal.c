@@ -4,11 +4,13 @@
 
 #include "tools/check/renewal.h"
 
+#include <fenv.h>
 #include <stdlib.h>
 #include <string.h>
 
 #include "core/common/capabilities.h"
 #include "tools/check/argument_list.h"
+#include "tools/check/heap_growth.h"
 #include "tools/check/purity.h"
 #include "tools/check/values.h"
 #include "tools/cli/catalogue.h"
@@ -45,6 +47,8 @@ static bool change_values(const imp_type_info *type, imp_value *values, double *
 
 /* --- Calls ------------------------------------------------------------------------------------ */
 
+enum { BEYOND = 0xA5 };
+
 /* What is called, and where faults go. */
 typedef struct renewal {
     const imp_instance *host; /* of the stage's values */
@@ -52,27 +56,60 @@ typedef struct renewal {
     check_answer *answer;
 } renewal;
 
-static imp_status create_from(const renewal *r, const imp_value *values, imp_instance *made)
+/* What create or renew tells, and what stands behind it. */
+typedef struct told {
+    imp_create_error why;
+    unsigned char beyond[64];
+} told;
+
+static void told_begin(told *t)
 {
-    imp_create_error why = {.struct_size = sizeof why, .parameter = -1, .element = -1};
+    t->why = (imp_create_error){.struct_size = sizeof t->why, .parameter = -1, .element = -1};
+    memset(t->beyond, BEYOND, sizeof t->beyond);
+}
+
+static bool told_is_kept(const told *t)
+{
+    for (size_t k = 0; k < sizeof t->beyond; ++k)
+        if (t->beyond[k] != BEYOND) return false;
+    return true;
+}
+
+static imp_status create_from(const renewal *r, const imp_value *values, imp_instance *made,
+                              told *t)
+{
+    told_begin(t);
     *made = *r->host;
     made->self = NULL; /* the host's is destroyed once */
     subject_note_stage(r->answer, "create", r->stage);
     const imp_status status = made->surface != NULL
-                                  ? made->surface->create(values, &made->self, &why)
-                                  : made->map->create(values, &made->self, &why);
+                                  ? made->surface->create(values, &made->self, &t->why)
+                                  : made->map->create(values, &made->self, &t->why);
     subject_note_stage(r->answer, NULL, NULL);
     return status;
 }
 
-static imp_status renew_from(const renewal *r, const imp_value *values, imp_instance *i)
+static imp_status call_renew(const imp_value *values, const imp_instance *i, told *t)
 {
-    imp_create_error why = {.struct_size = sizeof why, .parameter = -1, .element = -1};
+    told_begin(t);
+    return i->surface != NULL ? i->surface->renew(i->self, values, &t->why)
+                              : i->map->renew(i->self, values, &t->why);
+}
+
+/* False, and the answer fails: the call broke a rule that its status does not show. */
+static bool renew_from(const renewal *r, const imp_value *values, const imp_instance *i, told *t,
+                       imp_status *status)
+{
+    const int rounding = fegetround();
     subject_note_stage(r->answer, "renew", r->stage);
-    const imp_status status = i->surface != NULL ? i->surface->renew(i->self, values, &why)
-                                                 : i->map->renew(i->self, values, &why);
+    *status = call_renew(values, i, t);
     subject_note_stage(r->answer, NULL, NULL);
-    return status;
+    if (fegetround() != rounding) {
+        fesetround(rounding);
+        return answer_fail(r->answer, "renew changes the rounding mode");
+    }
+    return told_is_kept(t) ||
+           answer_fail(r->answer, "renew wrote beyond the imp_create_error it was given");
 }
 
 static void destroy(const renewal *r, imp_instance *i)
@@ -109,7 +146,57 @@ static bool are_alike(const renewal *r, const imp_instance *renewed, const imp_i
     return true;
 }
 
+static bool notes_are_alike(const renewal *r, const told *renewed, const told *made)
+{
+    const imp_create_error *x = &renewed->why, *y = &made->why;
+    if (x->note_count == y->note_count &&
+        (x->note_count == 0 ||
+         (x->note_parameter == y->note_parameter && strcmp(x->note, y->note) == 0)))
+        return true;
+    return answer_fail(r->answer, "renew notes '%.80s', and create '%.80s'",
+                       x->note_count > 0 ? x->note : "", y->note_count > 0 ? y->note : "");
+}
+
+/* --- Memory ----------------------------------------------------------------------------------- */
+
+typedef struct again {
+    const imp_value *values;
+    const imp_instance *instance;
+} again;
+
+static bool renew_again(const void *of)
+{
+    const again *a = of;
+    told t;
+    return call_renew(a->values, a->instance, &t) == IMP_STATUS_OK;
+}
+
+enum { ROUNDS = 64 };
+
+static bool is_let_go(const renewal *r, const imp_value *values, const imp_instance *i)
+{
+    const again a = {values, i};
+    subject_note_stage(r->answer, "renew", r->stage);
+    const double grown = heap_growth_lower(renew_again, &a, ROUNDS);
+    subject_note_stage(r->answer, NULL, NULL);
+    return grown < HEAP_BLOCK_LEAST * ROUNDS ||
+           answer_fail(r->answer, "%d calls of renew leak %.0f bytes", ROUNDS, grown);
+}
+
 /* --- The check -------------------------------------------------------------------------------- */
+
+/* Compares *i, refilled from these values, with a new one. */
+static bool is_like_new(const renewal *r, const imp_value *values, const imp_instance *i,
+                        const told *renewed)
+{
+    imp_instance fresh;
+    told made;
+    if (create_from(r, values, &fresh, &made) != IMP_STATUS_OK)
+        return answer_fail(r->answer, "renew accepts values that create refuses");
+    const bool alike = notes_are_alike(r, renewed, &made) && are_alike(r, i, &fresh);
+    destroy(r, &fresh);
+    return alike;
+}
 
 /* Refills *i from changed values, if it takes them; else *i is made anew of the stage's. */
 static bool renew_changed(const renewal *r, const imp_type_info *type, const imp_value *values,
@@ -118,19 +205,19 @@ static bool renew_changed(const renewal *r, const imp_type_info *type, const imp
     const size_t size = type->parameter_count * sizeof *values;
     imp_value *changed = malloc(size + 1);
     double *numbers = NULL;
-    imp_instance fresh = {.self = NULL};
     bool alike = false;
+    imp_status status;
+    told t;
     if (changed != NULL) memcpy(changed, values, size);
     if (changed == NULL || !change_values(type, changed, &numbers)) {
         answer_skip(r->answer, "the arguments could not be created");
-    } else if (renew_from(r, changed, i) != IMP_STATUS_OK) {
-        destroy(r, i);
-        alike = create_from(r, values, i) == IMP_STATUS_OK;
-    } else if (create_from(r, changed, &fresh) != IMP_STATUS_OK) {
-        answer_fail(r->answer, "renew accepts values that create refuses");
-    } else {
-        alike = are_alike(r, i, &fresh);
-        destroy(r, &fresh);
+    } else if (renew_from(r, changed, i, &t, &status)) {
+        if (status == IMP_STATUS_OK) {
+            alike = is_like_new(r, changed, i, &t);
+        } else {
+            destroy(r, i);
+            alike = create_from(r, values, i, &t) == IMP_STATUS_OK;
+        }
     }
     free(changed);
     free(numbers);
@@ -141,16 +228,19 @@ static void check(const renewal *r, const imp_type_info *type, arguments_list *l
 {
     const imp_value *values = arguments_list_values(list);
     imp_instance made;
-    if (create_from(r, values, &made) != IMP_STATUS_OK) {
+    imp_status status;
+    told first, second;
+    if (create_from(r, values, &made, &first) != IMP_STATUS_OK) {
         answer_fail(r->answer, "create refuses arguments that it accepted before");
         return;
     }
-    if (renew_changed(r, type, values, &made)) {
-        const imp_status status = renew_from(r, values, &made);
+    if (renew_changed(r, type, values, &made) && renew_from(r, values, &made, &second, &status)) {
+        const bool is_let_go_of = status != IMP_STATUS_OK || is_let_go(r, values, &made);
         arguments_list_hide(list);
         if (status != IMP_STATUS_OK)
             answer_pass(r->answer, "renew does not take these values, and create does");
-        else if (are_alike(r, &made, r->host))
+        else if (is_let_go_of && notes_are_alike(r, &second, &first) &&
+                 are_alike(r, &made, r->host))
             answer_pass(r->answer, "an instance that renew refills answers like a new one");
     }
     destroy(r, &made);

@@ -8,10 +8,8 @@
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
-#ifdef __GLIBC__
-#include <malloc.h>
-#endif
 
+#include "tools/check/heap_growth.h"
 #include "tools/check/values.h"
 #include "tools/cli/catalogue.h"
 
@@ -173,33 +171,12 @@ void parameters_check(imp_registry *registry, const imp_type_info *type, const c
 
 /* --- Memory ----------------------------------------------------------------------------------- */
 
-#if defined(__GLIBC__) && defined(__GLIBC_PREREQ)
-#if __GLIBC_PREREQ(2, 33)
-#define COUNTS_MEMORY 1
-#endif
-#endif
+enum { ROUNDS = 256, REFUSED_ROUNDS = 64 };
 
-/* Bytes allocated by malloc, or 0 if it does not report them. */
-static double bytes_in_use(void)
+/* Lives of an instance, for heap_growth_lower: false if it is impossible. */
+static bool one_life(const void *of)
 {
-#ifdef COUNTS_MEMORY
-    const struct mallinfo2 m = mallinfo2();
-    return (double)m.uordblks + (double)m.hblkhd;
-#else
-    return 0;
-#endif
-}
-
-enum { SPELLS = 48, ROUNDS = 256, REFUSED_ROUNDS = 64 };
-
-/* No block is smaller. */
-#define BLOCK_LEAST 16.0
-
-/* The repeated operation. False: it is impossible. */
-typedef bool life(const trial *t);
-
-static bool one_life(const trial *t)
-{
+    const trial *t = of;
     imp_instance i;
     imp_error error;
     subject s;
@@ -215,28 +192,12 @@ static bool one_life(const trial *t)
 }
 
 /* Any result of create is accepted. */
-static bool one_try(const trial *t)
+static bool one_try(const void *of)
 {
+    const trial *t = of;
     imp_error error;
     try_stage(t, t->text, &error);
     return true;
-}
-
-/* Returns the least growth of the heap, in bytes, by that many repetitions: malloc caches up to
- * some 200 kB of free blocks, so that the heap may grow in many rounds without a leak; a leak grows
- * it in each. Negative: unknown. */
-static double growth_lower(const trial *t, life *live, int rounds)
-{
-    double least = INFINITY;
-    for (int spell = 0; spell < SPELLS && least >= BLOCK_LEAST * rounds; ++spell) {
-        const double before = bytes_in_use();
-        for (int k = 0; k < rounds; ++k)
-            if (!live(t)) return 0;
-        const double grown = bytes_in_use() - before;
-        if (!(before > 0)) return -1;
-        if (grown < least) least = grown;
-    }
-    return least > 0 ? least : 0;
 }
 
 /* --- Memory of rejected values ---------------------------------------------------------------- */
@@ -249,9 +210,9 @@ static bool is_let_go(const trial *t, const char *parameter, const char *value)
     char *stage = stage_with(t->registry, t->type->kind, t->text, parameter, value);
     if (stage == NULL) return answer_fail(t->answer, "memory ran out");
     other.text = stage;
-    const double grown = growth_lower(&other, one_try, REFUSED_ROUNDS);
+    const double grown = heap_growth_lower(one_try, &other, REFUSED_ROUNDS);
     free(stage);
-    return grown < BLOCK_LEAST * REFUSED_ROUNDS ||
+    return grown < HEAP_BLOCK_LEAST * REFUSED_ROUNDS ||
            answer_fail(t->answer, "%d times %s=%.80s, rejected or destroyed, leak %.0f bytes",
                        REFUSED_ROUNDS, parameter, value, grown);
 }
@@ -274,11 +235,11 @@ void memory_check(imp_registry *registry, const imp_type_info *type, const char 
                   check_answer *answer)
 {
     const trial t = {registry, type, text, answer, false};
-    const double grown = growth_lower(&t, one_life, ROUNDS);
+    const double grown = heap_growth_lower(one_life, &t, ROUNDS);
     answer->tests += ROUNDS;
     if (grown < 0)
         answer_skip(answer, "this system's malloc does not report how much is in use");
-    else if (grown >= BLOCK_LEAST * ROUNDS)
+    else if (grown >= HEAP_BLOCK_LEAST * ROUNDS)
         answer_fail(answer, "%d instances, created, used and destroyed, leak %.0f bytes", ROUNDS,
                     grown);
     else if (refusals_are_let_go(&t))
