@@ -128,8 +128,8 @@ static imp_code find_screw_slip(collection *all, candidate *const side[2],
 }
 
 /* Bounds in *slip how much the distance of the pair of these frames changes with time. */
-static imp_code find_slip(candidate *const side[2], const time_window *times, double *slip,
-                          imp_error *error)
+static imp_code find_slip(collection *all, candidate *const side[2], const time_window *times,
+                          double *slip, imp_error *error)
 {
     imp_model bare[2][3];
     const surface *s[2];
@@ -168,7 +168,7 @@ static imp_code rest_pair(collection *all, frame_list *frames, size_t k, double 
     if (code != IMP_SUCCESS || times.lo > times.hi) return code;
     if (!frames_look_at_pair(all, frames, k, &times)) return IMP_SUCCESS;
     candidate *const side[2] = {&frames->at[of_pair[0]].made, &frames->at[of_pair[1]].made};
-    code = find_slip(side, &times, &slip, error);
+    code = find_slip(all, side, &times, &slip, error);
     if (code != IMP_SUCCESS || !(slip <= all->slip_most)) return code;
     *found = slip;
     for (int j = 0; j < 2 && code == IMP_SUCCESS; ++j) {

@@ -5,6 +5,7 @@
 #include <math.h>
 
 #include "core/broad_phase/frame_list.h"
+#include "core/surface/screws.h"
 
 /* What glances show of pairs, before bounds are computed: glance.h. */
 
@@ -72,20 +73,27 @@ static void note_slips(const collection *all, const frame *a, const frame *b, in
         slips->carry[side] = INFINITY;
 }
 
+/* How many of both are pieces of screws, which may rest although their middles do not. */
+static int count_screws(frame *const f[2])
+{
+    return surface_is_screw_piece(tree_surface(f[0]->made.tree)) +
+           surface_is_screw_piece(tree_surface(f[1]->made.tree));
+}
+
 bool frames_look_at_pair(collection *all, frame_list *frames, size_t k, const time_window *times)
 {
     frame *const f[2] = {frame_of(frames, k, 0), frame_of(frames, k, 1)};
     if (!look(f[0], times) || !look(f[1], times)) return false;
     for (int side = 0; side < 2; ++side)
         note_slips(all, f[side], f[!side], side, &all->list->pairs[k].slips);
-    return !glances_part(&f[0]->seen, &f[1]->seen);
+    return (all->may_halve && count_screws(f) > 0) || !glances_part(&f[0]->seen, &f[1]->seen);
 }
 
 bool frames_lack_common_line(const collection *all, const frame_list *frames, size_t k,
                              const time_window *times)
 {
-    const frame *const f[2] = {frame_of(frames, k, 0), frame_of(frames, k, 1)};
-    if (!is_seen(f[0], times) || !is_seen(f[1], times)) return false;
+    frame *const f[2] = {frame_of(frames, k, 0), frame_of(frames, k, 1)};
+    if (!is_seen(f[0], times) || !is_seen(f[1], times) || count_screws(f) == 2) return false;
     const int a = f[0]->seen.has_axis ? 0 : 1;
     return glances_are_off_line(&f[a]->seen, &f[!a]->seen, all->slip_most);
 }

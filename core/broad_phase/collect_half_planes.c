@@ -82,6 +82,7 @@ imp_code frames_halve_pair(collection *all, frame_list *frames, size_t k, double
     if (status == IMP_STATUS_OK && !(more < INFINITY) && surface_is_screw_piece(s[0]) &&
         surface_is_screw_piece(s[1])) {
         double near = all->gamma_clear;
+        tree *const t[2] = {frames->at[of_pair[0]].made.tree, frames->at[of_pair[1]].made.tree};
         if (!(near < INFINITY)) code = frames_some_distance(t, times.lo, &near, error);
         if (code != IMP_SUCCESS) return code;
         status = surface_screw_section(s, &boxes, &over, near, of, &more, &asked);
