@@ -7,8 +7,9 @@
 #include "tests/support/query_helpers.h"
 #include "tools/check/malloc_watch.h"
 
-/* The loop of a simulation: change numbers, ask for contact and distance, read the answers. Once it has run for a while, it
- * allocates nothing: neither core (alloc_failure.h) nor plugins and libc (malloc_watch.h). */
+/* The loop of a simulation: change numbers, ask for contact and distance, read the answers. Once it
+ * has run for a while, it allocates nothing: neither core (alloc_failure.h) nor plugins and libc
+ * (malloc_watch.h). */
 
 static imp_registry *registry;
 static imp_error error;
