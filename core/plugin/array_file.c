@@ -86,7 +86,8 @@ static const char *read_truth(npy *f, const char *at)
     return strncmp(at, "False", 5) == 0 ? at + 5 : NULL;
 }
 
-/* Reads (16, 3), (5,) or (). NULL: it is no shape, or one of more dimensions than any row has. */
+/* Reads (16, 3), (5,) or (). NULL: it is no shape. Of one of more dimensions than any row has, only
+ * the rank is kept. */
 static const char *read_shape(npy *f, const char *at)
 {
     if (*at != '(') return NULL;
@@ -97,8 +98,8 @@ static const char *read_shape(npy *f, const char *at)
             if (__builtin_mul_overflow(extent, (size_t)10, &extent) ||
                 __builtin_add_overflow(extent, (size_t)(*at - '0'), &extent))
                 return NULL;
-        if (digits == 0 || f->rank == IMP_RANK_MAX) return NULL;
-        f->extent[f->rank] = extent;
+        if (digits == 0) return NULL;
+        if (f->rank < IMP_RANK_MAX) f->extent[f->rank] = extent;
         at = skip(*at == 'L' ? at + 1 : at); /* as Python 2 wrote it */
         if (*at == ',')
             at = skip(at + 1);
@@ -188,6 +189,10 @@ static imp_code check_shape(npy *f, uint64_t numbers)
     char text[100];
     bool fits = f->rank == row->rank;
     f->count = 1;
+    if (f->rank > IMP_RANK_MAX)
+        return place_error(f->at, f->error, IMP_ERROR_SCENE,
+                           "%.200s: it has %u dimensions, must be %s", f->path, f->rank,
+                           parameter_shape_words(row, 0).at);
     for (uint32_t k = 0; fits && k < f->rank; ++k)
         fits = f->extent[k] > 0 && (row->extent[k] == 0 || row->extent[k] == f->extent[k]) &&
                !__builtin_mul_overflow(f->count, f->extent[k], &f->count);
@@ -256,6 +261,10 @@ static imp_code refuse_number(const npy *f, size_t to, double x)
         element[j] = place_index(at, index[j]);
         at = &element[j];
     }
+    if (isinf(x) && f->kind != 'f')
+        return place_error(at, f->error, IMP_ERROR_SCENE,
+                           "%.200s: got a whole number beyond 2^53, must be %s", f->path,
+                           parameter_shape_words(f->row, f->rank).at);
     return place_error(at, f->error, IMP_ERROR_SCENE, "%.200s: got %.17g, must be %s", f->path, x,
                        parameter_shape_words(f->row, f->rank).at);
 }
