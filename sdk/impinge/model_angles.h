@@ -17,14 +17,77 @@ extern "C" {
 
 /* --- Circular functions ----------------------------------------------------------------------- */
 
-/* A function with the value f and the derivative g at m, and -f as its second derivative, and so
- * on: f + g y - f y^2 / 2 - g y^3 / 6 + f y^4 / 24 within r^5 / 120. Its slope is at most |g| + |f|
- * r + r^2 / 2, and 1. */
-static inline imp_model imp_wave_(const imp_model *x, imp_series s, double f, double g,
-                                  imp_interval (*range)(imp_interval))
+/* For |y| <= r, cos y = even[0] + even[1] y^2 within even[2], and sin y = odd[0] y + odd[1] y^3
+ * within odd[2]. */
+typedef struct imp_wave_series_ {
+    double even[3], odd[3];
+} imp_wave_series_;
+
+/* Greatest r for which these are used; the lemma holds up to 4. For a whole turn the polynomial and
+ * its error reach beyond [-1, 1] by a third: the range alone says more. */
+#define IMP_WAVE_FARTHEST_ 2
+
+/* Lemma. With z = y / r and Bessel's J_k = J_k(r) (Jacobi and Anger),
+ *
+ *   cos y = J_0 - 2 J_2 T_2(z) + 2 J_4 T_4(z) - ...,   sin y = 2 J_1 T_1(z) - 2 J_3 T_3(z) + ...,
+ *
+ * |T_k| <= 1 being Chebyshev's polynomials. The first two terms are kept: up to their fourth and
+ * fifth, they are the best approximations of their degree. With x = r^2 / 4,
+ *
+ *   J_k = (r / 2)^k S_k,   S_k = sum of (-x)^m / (m! (m + k)!),
+ *   even[0] = S_0 + 2 x S_2,   even[1] = -S_2,   odd[0] = S_1 + 3 x S_3,   odd[1] = -S_3.
+ *
+ * As x <= 4, terms of S_k fall from m = 2 on, from each to the next: what S_k leaves out is at most
+ * the first term that it leaves out, and S_k <= its first three terms. |J_k| <= (r / 2)^k / k!. So
+ * what is left out of cos y and of sin y is at most
+ *
+ *   2 (J_4 + J_6 + ...) <= x^2 (1/12 - x/60 + x^2/720) + x^3/360 + 1.05 x^4/20160
+ *                       <= x^2 (1/12 - x/72 + x^2/690)
+ *   2 (J_5 + J_7 + ...) <= r (x^2 (1/120 - x/720 + x^2/10080) + x^3/5040 + 1.05 x^4/362880)
+ *                       <= r x^2 (1/120 - x/840 + x^2/9700)
+ *   of S_0 and S_2      x^6/518400 + 6 x x^5/604800 <= x^6/84000
+ *   of S_1 and S_3      r (x^6/3628800 + 7 x x^5/4838400) <= r x^6/570000
+ *
+ * Rounding, and that of f and g below, each within 11 u: x is off by u, a sum S_k by 12 u times its
+ * terms behind the first, and by u; with products and sums 36 u of all terms but the first, and 16
+ * u of that. The sizes of S_0 + 6 x S_2 and S_1 + 7 x S_3 are convex in x, 1 at x = 0, and 50 and
+ * 17 at x = 4: at most 1 + 12.25 x and 1 + 4 x. */
+static inline imp_wave_series_ imp_wave_around_(double r)
 {
-    const double t[5] = {f, g, -f / 2, -g / 6, f / 24};
-    imp_series_taylor(&s, 1, t, imp_power5_(s.r) / 120, 10, 11);
+    imp_wave_series_ w = {{0, 0, INFINITY}, {0, 0, INFINITY}};
+    if (!(r <= IMP_WAVE_FARTHEST_)) return w;
+    double x = 0.25 * (r * r), xx = x * x, x4 = xx * xx;
+    double s0 = 1 - x * (1 - x * (1.0 / 4 - x * (1.0 / 36 - x * (1.0 / 576 - x / 14400))));
+    double s1 = 1 - x * (1.0 / 2 - x * (1.0 / 12 - x * (1.0 / 144 - x * (1.0 / 2880 - x / 86400))));
+    double s2 = 1.0 / 2 - x * (1.0 / 6 - x * (1.0 / 48 - x * (1.0 / 720 - x / 17280)));
+    double s3 = 1.0 / 6 - x * (1.0 / 24 - x * (1.0 / 240 - x * (1.0 / 4320 - x / 120960)));
+    double even = xx * (1.0 / 12 - x * (1.0 / 72 - x / 690) + x4 / 84000);
+    double odd = xx * (1.0 / 120 - x * (1.0 / 840 - x / 9700) + x4 / 570000);
+    w.even[0] = s0 + 2 * x * s2;
+    w.even[1] = -s2;
+    w.even[2] = even + IMP_U * (16 + 600 * x);
+    w.odd[0] = s1 + 3 * x * s3;
+    w.odd[1] = -s3;
+    w.odd[2] = r * (odd + IMP_U * (16 + 200 * x));
+    return w;
+}
+
+/* f cos y + g sin y around m: a function with the value f and the derivative g at m, and -f as its
+ * second derivative, and so on; its slope is at most |g| + |f| r, and 1. Where r is large, it is
+ * f + g y - f y^2 / 2 - g y^3 / 6 + f y^4 / 24 within r^5 / 120. */
+static inline imp_model imp_wave_(const imp_model *x, imp_series s, const imp_wave_series_ *w,
+                                  double f, double g, imp_interval (*range)(imp_interval))
+{
+    if (s.r <= IMP_WAVE_FARTHEST_) {
+        s.c[0] = f * w->even[0];
+        s.c[1] = g * w->odd[0];
+        s.c[2] = f * w->even[1];
+        s.c[3] = g * w->odd[1];
+        s.e = (fabs(f) * w->even[2] + fabs(g) * w->odd[2] + IMP_TINY) * IMP_SLACK;
+    } else {
+        const double t[5] = {f, g, -f / 2, -g / 6, f / 24};
+        imp_series_taylor(&s, 1, t, imp_power5_(s.r) / 120, 10, 11);
+    }
     imp_interval at = imp_series_is_sharp_(&s) ? imp_series_range_(&s) : range(imp_model_range(x));
     double slope = (fabs(g) + fabs(f) * s.r) * (1 + 0x1p-40) + IMP_TINY;
     at = imp_interval_intersect(at, imp_interval_make(-1, 1));
@@ -35,14 +98,16 @@ static inline imp_model imp_sin(imp_model x)
 {
     if (imp_is_point(&x)) return imp_point_within(&x, sin(x.a), 1, -1, 1);
     imp_series s = imp_series_around(imp_model_range(&x));
-    return imp_wave_(&x, s, sin(s.m), cos(s.m), imp_interval_sin);
+    imp_wave_series_ w = imp_wave_around_(s.r);
+    return imp_wave_(&x, s, &w, sin(s.m), cos(s.m), imp_interval_sin);
 }
 
 static inline imp_model imp_cos(imp_model x)
 {
     if (imp_is_point(&x)) return imp_point_within(&x, cos(x.a), 1, -1, 1);
     imp_series s = imp_series_around(imp_model_range(&x));
-    return imp_wave_(&x, s, cos(s.m), -sin(s.m), imp_interval_cos);
+    imp_wave_series_ w = imp_wave_around_(s.r);
+    return imp_wave_(&x, s, &w, cos(s.m), -sin(s.m), imp_interval_cos);
 }
 
 /* Both, at a lower cost. */
@@ -54,9 +119,10 @@ static inline void imp_sincos(imp_model x, imp_model *sine, imp_model *cosine)
         return;
     }
     imp_series s = imp_series_around(imp_model_range(&x));
+    imp_wave_series_ w = imp_wave_around_(s.r);
     double f = sin(s.m), g = cos(s.m);
-    *sine = imp_wave_(&x, s, f, g, imp_interval_sin);
-    *cosine = imp_wave_(&x, s, g, -f, imp_interval_cos);
+    *sine = imp_wave_(&x, s, &w, f, g, imp_interval_sin);
+    *cosine = imp_wave_(&x, s, &w, g, -f, imp_interval_cos);
 }
 
 /* With T = tan m, D = 1 + T^2, the t_k are D, D T, D (1 + 3 T^2) / 3, D T (2 + 3 T^2) / 3, and the

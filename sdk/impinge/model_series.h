@@ -21,7 +21,8 @@ extern "C" {
  *
  * As the folding of cubic terms is optimal too, the remainder is that of interpolation in
  * Chebyshev's points, g''' r^3 / 24, or less where g's curvature and its argument's
- * cancel; without the digits that divided differences lose, and for one call of libm. */
+ * cancel; without the digits that divided differences lose, and for one call of libm. Sine and
+ * cosine have cubics of their own (imp_wave_around_). */
 
 /* g(m + y) = c0 + c1 y + c2 y^2 + c3 y^3 within e, for |y| <= r. */
 typedef struct imp_series {

@@ -114,7 +114,7 @@ in_parts() {
     arms >arms.json
     in_parts '--max-boxes 6' "$IMPINGE" solve arms.json --gamma 0.09
     in_parts '--max-boxes 12' "$IMPINGE" clearance arms.json --require 0.095
-    in_parts '--max-boxes 12' "$IMPINGE" clearance arms.json --tolerance 0.1
+    in_parts '--max-boxes 16' "$IMPINGE" clearance arms.json --tolerance 0.1
     arms 2.9 '0,0],[-0.3,0,0' >arms.json # their shafts come nearer: a contact in time
     in_parts '--max-boxes 150' "$IMPINGE" solve arms.json --gamma 0.05
 }

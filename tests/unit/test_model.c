@@ -213,6 +213,29 @@ END_TEST
 
 /* --- The range of a quadratic ----------------------------------------------------------------- */
 
+/* The cubics that replace cosine and sine, against long doubles; from a part of a degree on, their
+ * errors are hardly more than needed. */
+START_TEST(waves_are_within_their_error_and_reach_it)
+{
+    uint64_t state = suite_seed() + 9;
+    for (int k = 0; k < suite_times(2000); ++k) {
+        const double r = IMP_WAVE_FARTHEST_ * ldexp(random_between(&state, 0.5, 1), -k % 24);
+        const imp_wave_series_ w = imp_wave_around_(r);
+        long double even = 0, odd = 0;
+        for (int j = -64; j <= 64; ++j) {
+            const long double y = (long double)r * j / 64;
+            const long double c = fabsl(cosl(y) - w.even[0] - w.even[1] * y * y);
+            const long double s = fabsl(sinl(y) - w.odd[0] * y - w.odd[1] * y * y * y);
+            even = c > even ? c : even;
+            odd = s > odd ? s : odd;
+        }
+        ck_assert_msg(even <= w.even[2] && odd <= w.odd[2], "r = %g: %Lg of %g, %Lg of %g", r, even,
+                      w.even[2], odd, w.odd[2]);
+        if (r > 0.01) ck_assert(even > 0.9L * w.even[2] && odd > 0.9L * w.odd[2]);
+    }
+}
+END_TEST
+
 START_TEST(the_range_of_a_quadratic_covers_it)
 {
     for (int i = 0; i < suite_times(20000); i++) {
@@ -409,6 +432,7 @@ START_TEST(intervals_cover_every_value)
 END_TEST
 
 SUITE_MAIN("model", every_value_that_the_operands_allow_is_covered,
+           waves_are_within_their_error_and_reach_it,
            rates_hold_for_operands_that_change_as_fast_as_theirs_allow, no_answer_holds_a_nan,
            the_range_of_a_quadratic_covers_it,
            what_overflows_is_known_to_be_large_and_its_inverse_to_be_small,
