@@ -161,6 +161,7 @@ core_bounds = \
     core/bounds/distance.c core/bounds/distance.h \
     core/bounds/piece_sides.c core/bounds/piece_sides.h core/bounds/piece_planes.c core/bounds/piece_rings.c \
     core/bounds/distance_ball.c core/bounds/distance_sides.c \
+    core/bounds/distance_start.c \
     core/bounds/fixed_axes.c core/bounds/fixed_axes.h \
     core/bounds/gap_lines.c core/bounds/gap_lines.h \
     core/bounds/gjk.h \
@@ -189,6 +190,7 @@ core_witness = \
     core/witness/net_eval.c core/witness/net_eval.h \
     core/witness/newton.c core/witness/newton.h \
     core/witness/search.c core/witness/search.h \
+    core/witness/wide_search.c core/witness/wide_search.h \
     core/witness/witness.c core/witness/witness.h
 
 core_broad_phase = \

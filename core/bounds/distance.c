@@ -265,7 +265,7 @@ static double sides_lower(const sides *both, double slack)
 
 distance_view distance_view_none(const node *a)
 {
-    distance_view view = {false, false, 0, {0, 0, 0}};
+    distance_view view = {.lower = 0};
     memcpy(view.bend, a->nonlinear_extent, sizeof view.bend);
     return view;
 }

@@ -18,6 +18,7 @@
 typedef struct distance_view {
     bool is_apart;     /* farther than gamma_clear during the whole window */
     bool is_promising; /* not apart, but its halves, with smaller remainders, may be */
+    bool has_start;    /* the window's start was cut by distance_cut_start */
     double lower;      /* bound of the distance over the window as passed; length */
     double bend[3];    /* nonlinear extents in u, v, t in the other's frame, about; length */
 } distance_view;
@@ -63,6 +64,12 @@ bool distance_slides(const distance_question *q);
 imp_code distance_cut(const distance_question *q, time_window *window, distance_view *view,
                       imp_error *error);
 
+/* Cuts the window's start alone, by the distance over ever shorter parts of the window, so that it
+ * is exact but for what the distance is inexact at one time. *is_apart: nothing is left, and the
+ * window means nothing. Preconditions are those of distance_cut, and q->is_ball. */
+imp_code distance_cut_start(const distance_question *q, time_window *window, bool *is_apart,
+                            imp_error *error);
+
 /* Cuts the window to the times at which g, a model over the region, is no greater than gamma_clear,
  * if count is 1, or |g| is, if it is 2. True: at no time, and the window is unchanged. *lower
  * becomes a bound of g, or |g|, over the window as passed, or 0. */
@@ -103,6 +110,7 @@ typedef struct distance_sides {
     size_t still_maps[2];  /* surface_still_maps of each surface */
     distance_slips *slips; /* the caller's, of the two surfaces */
     arena_store *store;    /* of temporary memory; NULL: the heap */
+    bool seeks_start;      /* whether a ball's distance shall cut the window's start exactly */
     bool takes_orbits;     /* whether one point may stand for others, screws included */
     bool is_audited;
 } distance_sides;
@@ -118,6 +126,7 @@ typedef struct distance_outcome {
     time_window left; /* of the window; outside, the nodes are farther apart than gamma_clear */
     bool is_apart;    /* during the whole window */
     double lower;     /* bound of the distance over the window, if below gamma_clear; length */
+    bool has_start;   /* a ball's distance cut the window's start (distance_cut_start) */
     int side;         /* the side whose node to split; -1: none */
     double bend[3];   /* nonlinear extents of that node in the other's frame, about; length */
     piece_hint hint;  /* of two roots of many pieces */

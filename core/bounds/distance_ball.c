@@ -59,5 +59,9 @@ imp_code distance_cut_ball(const distance_sides *of, int side, double gamma_clea
         if (code != IMP_SUCCESS) return code;
     }
     if (!distance_slides(&q) && distance_is_turned(of, side)) return IMP_SUCCESS;
-    return distance_cut(&q, window, view, error);
+    const imp_code code = distance_cut(&q, window, view, error);
+    if (code != IMP_SUCCESS || !of->seeks_start || view->is_apart || distance_slides(&q))
+        return code;
+    view->has_start = true;
+    return distance_cut_start(&q, window, &view->is_apart, error);
 }

@@ -12,7 +12,7 @@
 
 distance_outcome distance_outcome_none(const time_window *window)
 {
-    return (distance_outcome){*window, false, 0, -1, {0, 0, 0}, {false, {0, 0}}};
+    return (distance_outcome){.left = *window, .side = -1};
 }
 
 static imp_region all_of(const time_window *times)
@@ -274,6 +274,7 @@ imp_code distance_cut_sides(const distance_sides *of, double gamma_clear, distan
                   : cut_side(of, side, &plan[side], gamma_clear, &seen->left, &view, error);
         if (code != IMP_SUCCESS) return code;
         seen->is_apart = view.is_apart;
+        seen->has_start = seen->has_start || view.has_start;
         if (view.lower > seen->lower) seen->lower = view.lower;
         if (!view.is_promising) continue;
         seen->side = side;

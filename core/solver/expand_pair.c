@@ -242,6 +242,28 @@ static impact_state end_by_resolution(impact *im, const pair *p)
     return IMPACT_RESOLUTION;
 }
 
+/* Where a ball's distance tells exactly when two whole surfaces may meet, they do, mostly: poles,
+ * and what is alike there, need not be divided then. *met: they do. The pair waits then as it is,
+ * from that time on, for a smaller gamma. */
+static imp_code try_start(impact *im, pair *p, const distance_outcome *distances, bool *met,
+                          imp_error *error)
+{
+    upper_time *up = &im->upper;
+    const double start = distances->left.lo;
+    *met = false;
+    if (!distances->has_start || im->spread != NULL || (up->is_known && up->t <= start))
+        return IMP_SUCCESS;
+    im->stats->witness_searches += 1;
+    const imp_code code = upper_time_try(up, p, start, im->gamma, met, error);
+    if (code != IMP_SUCCESS || !*met) return code;
+    impact_note_gap(im, &up->seen);
+    p->window = distances->left;
+    p->key[0] = start;
+    p->key[1] = pair_order(p, start);
+    pair_heap_push(&im->heap, p);
+    return IMP_SUCCESS;
+}
+
 /* The order matters: distances may separate the nodes; clusters are only split; a witness is
  * sought at the window's start as popped, before distances cut it; then the pair is divided. */
 static imp_code expand_by_models(impact *im, pair *p, impact_state *state, imp_error *error)
@@ -253,6 +275,9 @@ static imp_code expand_by_models(impact *im, pair *p, impact_state *state, imp_e
                               im->proof != NULL, sliding, &distances, error);
     if (code == IMP_SUCCESS && distances.is_apart) pair_note_test(im->proof, p, false);
     if (code != IMP_SUCCESS || distances.is_apart) return code;
+    bool met;
+    code = try_start(im, p, &distances, &met, error);
+    if (code != IMP_SUCCESS || met) return code;
     if (pair_has_cluster(p)) {
         p->window = distances.left;
         explanation_count(im, p, IMP_OBSTACLE_SIZE);

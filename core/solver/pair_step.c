@@ -41,7 +41,8 @@ imp_code pair_look(const pair *p, candidate_pair *both, double limit, strategy_g
         return is_first ? piece_sides_cut(&sides, 1u << goal, limit, seen, error) : IMP_SUCCESS;
     }
     if (!strategy_takes_distances(p->a, p->b, &signs, goal)) return IMP_SUCCESS;
-    const distance_sides sides = sides_of(p, both, keeps_proof);
+    distance_sides sides = sides_of(p, both, keeps_proof);
+    sides.seeks_start = goal == GOAL_CONTACT && signs.is_whole;
     const imp_code code = distance_cut_sides(&sides, limit, seen, error);
     strategy_note_distances(&signs, seen->is_apart || seen->side >= 0);
     return code;

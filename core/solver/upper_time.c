@@ -7,6 +7,7 @@
 #include "core/bounds/strategy.h"
 #include "core/bounds/tuning.h"
 #include "core/witness/contact_estimate.h"
+#include "core/witness/wide_search.h"
 
 /* Nearest points are followed until their gap is this part of gamma, which leaves a margin for
  * rounding and the net's error and is well above gamma_clear. */
@@ -63,6 +64,22 @@ imp_code upper_time_follow(upper_time *up, const pair *p, double gamma, bool *so
     const imp_code code = witness_at(nodes, met.t, met.y, &seen, error);
     if (code != IMP_SUCCESS) return code;
     if (seen.gap_upper <= gamma && !(up->is_known && up->t <= met.t)) take(up, p, &met, &seen);
+    return IMP_SUCCESS;
+}
+
+imp_code upper_time_try(upper_time *up, const pair *p, double start, double gamma, bool *met,
+                        imp_error *error)
+{
+    const node *const nodes[2] = {p->a, p->b};
+    witness seen;
+    const imp_code code = witness_seek_widely(nodes, start, gamma, &seen, error);
+    *met = code == IMP_SUCCESS && seen.gap_upper <= gamma;
+    if (!*met) return code;
+    up->is_known = true;
+    up->has_horizon = false;
+    up->t = start;
+    up->seen = seen;
+    up->candidate_pair = p->candidate_pair;
     return IMP_SUCCESS;
 }
 

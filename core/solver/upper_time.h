@@ -28,6 +28,11 @@ typedef struct upper_time {
 imp_code upper_time_follow(upper_time *up, const pair *p, double gamma, bool *sought,
                            imp_error *error);
 
+/* Seeks a contact at the start of what is left of the pair's window; *met: there is one, and it is
+ * kept. Precondition: no contact is known up to then. */
+imp_code upper_time_try(upper_time *up, const pair *p, double start, double gamma, bool *met,
+                        imp_error *error);
+
 /* Adapts to a smaller gamma: a contact whose gap is still small enough stays known; otherwise the
  * next pair is used to seek one. */
 void upper_time_refine(upper_time *up, double gamma);

@@ -216,7 +216,8 @@ static void try_cut(const distance_sides *of, double gamma_clear, double share, 
     sum->bounded += view.lower > 0;
     for (int k = 0; k < POINTS / 4; ++k) {
         const double f = k == 0 ? 0 : k == 1 ? 1 : random_fraction(random);
-        const double t = whole.lo + f * (whole.hi - whole.lo);
+        double t = whole.lo + f * (whole.hi - whole.lo);
+        if (k == 2 && left.lo > whole.lo) t = left.lo - 1e-3 * (left.lo - whole.lo);
         const double found =
             share * nearly_apart(of->node[0]->surface, of->node[1]->surface, t) + 1e-12;
         const bool is_cut_off = view.is_apart || t < left.lo || t > left.hi;
@@ -247,7 +248,8 @@ static void try_scene(double share, uint64_t *random, tally *sum)
     const double t0 = random_fraction(random), t1 = t0 + random_power(random, -12, 0);
     tree *const trees[2] = {tree_of(s[0], t0, t1), tree_of(s[1], t0, t1)};
     distance_slips slips = {.slip = {0, 0}};
-    distance_sides of = {.slips = &slips, .takes_orbits = true};
+    distance_sides of = {
+        .slips = &slips, .seeks_start = random_bits(random) % 2, .takes_orbits = true};
     for (int k = 0; k < 2; ++k) {
         const imp_region times = region_make((double[3]){0, 0, t0}, (double[3]){0, 0, t1});
         of.node[k] = of.root[k] = tree_root(trees[k]);
@@ -283,12 +285,61 @@ START_TEST(distances_of_balls_that_are_too_large_are_found)
 }
 END_TEST
 
+/* --- Answers ---------------------------------------------------------------------------------- */
+
+/* Contacts at poles, across a seam, at the end of the times, and near misses. */
+static const struct {
+    const char *a, *b;
+    double gamma, t; /* of the contact; < 0: none */
+} meetings[] = {
+    {"sphere", "sphere center=0,0,4 ! translate velocity=0,0,-4", 1e-6, 0.5},
+    {"sphere", "sphere center=0,0,4 ! translate velocity=0,0,-4", 1e-9, 0.5},
+    {"sphere ! rotate axis=1,0,0 rate=3", "sphere center=0,0,4 ! translate velocity=0,0,-4", 1e-9,
+     0.5},
+    {"sphere", "sphere center=0,0,4 ! translate velocity=0,0,-2", 1e-6, 1},
+    {"sphere", "sphere center=4,0,0 ! translate velocity=-4,0,0", 1e-6, 0.5},
+    {"sphere", "sphere center=0,0,4 ! translate velocity=0,0,-1.99999", 1e-6, -1},
+    {"sphere", "sphere center=-2,0,2.000002 ! translate velocity=4,0,0", 1e-6, -1},
+    {"ellipsoid radii=2,2,1", "sphere radius=0.5 center=0,0,3.5 ! translate velocity=0,0,-4", 1e-6,
+     0.5},
+    {"ellipsoid radii=1,1.2,0.7", "sphere center=0,0,3.7 ! translate velocity=0,0,-4", 1e-6, 0.5},
+    {"torus major_radius=1 minor_radius=0.25",
+     "sphere radius=0.5 center=1,0,2.75 ! translate velocity=0,0,-4", 1e-6, 0.5},
+    {"plane origin=-1,-1,0 edge_u=2,0,0 edge_v=0,2,0",
+     "sphere radius=0.5 center=0,0,2.5 ! translate velocity=0,0,-4", 1e-6, 0.5},
+};
+enum { MEETINGS = sizeof meetings / sizeof *meetings };
+
+START_TEST(balls_meet_at_poles_in_few_pairs)
+{
+    imp_error error;
+    imp_scene *scene = imp_scene_from_pair(registry, meetings[_i].a, meetings[_i].b, &error);
+    ck_assert_msg(scene != NULL, "%s", error.text);
+    imp_options options = imp_options_default(scene);
+    options.gamma = meetings[_i].gamma;
+    options.max_pairs = 10000;
+    imp_result r = {.struct_size = sizeof r};
+    ck_assert_msg(imp_scene_solve(scene, &options, &r, &error) == IMP_SUCCESS, "%s", error.text);
+    query_check(scene, &options, &r);
+    ck_assert_msg(r.stats.pairs <= 10, "%llu pairs", (unsigned long long)r.stats.pairs);
+    if (meetings[_i].t < 0) {
+        ck_assert_int_eq(r.verdict, IMP_VERDICT_CLEAR);
+    } else {
+        ck_assert_int_eq(r.verdict, IMP_VERDICT_CONTACT);
+        ck_assert_double_le(r.t, meetings[_i].t);
+        ck_assert_double_ge(r.t, meetings[_i].t - options.gamma);
+    }
+    imp_scene_free(scene);
+}
+END_TEST
+
 int main(void)
 {
-    const TTest *const tests[] = {points_of_a_ball_are_within_its_radius_of_its_center,
-                                  only_balls_under_exact_rotations_have_a_radius,
-                                  no_surface_is_nearer_to_a_ball_than_its_center_says,
-                                  distances_of_balls_that_are_too_large_are_found};
-    return suite_main_with("balls", tests, sizeof tests / sizeof tests[0], open_registry,
-                           close_registry);
+    const suite_loop loops[] = {{points_of_a_ball_are_within_its_radius_of_its_center, 1},
+                                {only_balls_under_exact_rotations_have_a_radius, 1},
+                                {no_surface_is_nearer_to_a_ball_than_its_center_says, 1},
+                                {distances_of_balls_that_are_too_large_are_found, 1},
+                                {balls_meet_at_poles_in_few_pairs, MEETINGS}};
+    return suite_main_loops("balls", loops, sizeof loops / sizeof *loops, open_registry,
+                            close_registry);
 }

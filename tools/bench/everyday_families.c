@@ -47,6 +47,8 @@
 #define TUBE "op 64 1.0012060077811093:-1 1.0012060077811093:1"
 #define SCREW "{'type':'screw','pitch':0.5,'rate':1}"
 #define THREAD(RADIUS, HEIGHT) "{'type':'thread','radius':" RADIUS ",'height':" HEIGHT "}"
+#define THREADS(RADIUS, HEIGHT)                                                                    \
+    "{'type':'thread','radius':" RADIUS ",'starts':2,'height':" HEIGHT "}"
 #define THREAD_BY_FORMULA(RADIUS, FROM, TO)                                                        \
     "{'type':'formula','x':'(r+0.1*cos(2*pi*(v-u)))*cos(2*pi*u)','y':'(r+0.1*cos(2*pi*(v-u)))*"    \
     "sin(2*pi*u)','z':'0.5*v','domain':[[0,1],[" FROM "," TO "]],'constants':{'r':" RADIUS "}}"
@@ -163,4 +165,23 @@ const everyday_family everyday_families[] = {
      FIVE, 500, "", ""},
     {"box that bounces on a table", FLOOR, PLACE, BOX("1,1,1", "0.3,0,@0.5"), BOUNCE "," SAME_PLACE,
      BOND_NONE, 0, false, FIVE, 500, "", ""},
+    /* poles */
+    {"balls that meet head-on", SPHERE("1", "0,0,0"), TURN("1,0,0", "3"), SPHERE("1", "0,0,4"),
+     MOVE("0,0,-4"), BOND_NONE, 0, true, FIVE, 50, "", ""},
+    {"ball that falls on a pole", "{'type':'ellipsoid','radii':[2,2,1]}", "",
+     SPHERE("0.5", "0,0,3.5"), MOVE("0,0,-4"), BOND_NONE, 0, true, FIVE, 50, "", ""},
+    /* parts of machines */
+    {"nut of two starts", THREADS("~1", "4"), "", THREADS("1", "1.5"), "", BOND_NONE, 0, false,
+     "1234", 2000, "", ""},
+    {"nut that is drawn along", THREAD("~0.8", "4"), "", THREAD("1", "0.75"), MOVE("0,0,0.5"),
+     BOND_NONE, 0, false, "1234", 1000, "", ""},
+    {"screw in a smooth bore", THREAD("1", "2"), TURN(Z_AXIS, "3"), CYLINDER("@1.1", "2", "0,0,0"),
+     "", BOND_NONE, 0, false, "1234", 20000, "", ""},
+    {"ball beside a screw", THREAD("1", "3"), TURN(Z_AXIS, "6"), SPHERE("0.1", "@1.25,0,0"),
+     MOVE("0,0,0.3"), BOND_NONE, 0, false, "1234", 2000, "", ""},
+    {"oval cam and roller", "{'type':'ellipsoid','radii':[1.5,1,1]}", TURN(Z_AXIS, "6"),
+     CYLINDER("0.5", "1", "@2,0,0"), "", BOND_NONE, 0, false, "1234", 1000, "", ""},
+    {"disc between rails", BOX("6,1,1", "0,~-1.5,0") "," BOX("6,1,1", "0,@1.5,0"), "",
+     TORUS("0.75", "0.25"), TURN(Z_AXIS, "20") "," MOVE("1,0,0"), BOND_NONE, 0, false, "1234", 500,
+     "", ""},
     {NULL, "", "", "", "", BOND_NONE, 0, false, "", 0, "", ""}};

@@ -229,7 +229,7 @@ void explain_print(const imp_scene *scene, const explanation *e)
         result_print_label("work");
         puts(e->count > 0 ? "pairs of regions tested, and those that nothing parted, by what "
                             "held them together"
-                          : "each pair of regions tested was parted at once");
+                          : "each pair of regions tested was parted, or met, at once");
     }
     for (size_t k = 0; e->is_counted && k < e->count && k < ROWS_PRINTED; ++k)
         print_row(scene, &e->row[k]);

@@ -1,0 +1,14 @@
+/* SPDX-FileCopyrightText: The Impinge authors
+ * SPDX-License-Identifier: Apache-2.0 */
+#ifndef CORE_WITNESS_WIDE_SEARCH_H
+#define CORE_WITNESS_WIDE_SEARCH_H
+
+#include "core/witness/witness.h"
+
+/* Seeks the nearest points of two nodes at time t from the nearest two points of a grid, for nodes
+ * so large that their middles lead nowhere; ends where their gap is at most gamma.
+ * IMP_ERROR_PLUGIN: an evaluation failed. */
+imp_code witness_seek_widely(const node *const nodes[2], double t, double gamma, witness *found,
+                             imp_error *error);
+
+#endif
