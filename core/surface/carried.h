@@ -32,8 +32,8 @@ static inline bool symmetry_is_screw(const imp_symmetry *found)
     return found->kind == IMP_SYMMETRY_SCREW_RIGHT || found->kind == IMP_SYMMETRY_SCREW_LEFT;
 }
 
-/* Returns the rotations that keep the whole surface. IMP_STATUS_UNBOUNDED: none are known, for
- * instance if it has several pieces, each with its own symmetry. */
+/* Returns the rotations that keep the whole surface, all of its pieces. IMP_STATUS_UNBOUNDED: none
+ * are known. */
 imp_status surface_closed_symmetry(const surface *s, imp_symmetry *found);
 
 /* Whether all maps are rigid in exact arithmetic: rotations and shifts. */

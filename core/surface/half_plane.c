@@ -12,7 +12,7 @@
 
 bool surface_may_have_half_plane(const surface *s)
 {
-    return surface_has_symmetry(s) && s->piece_count <= 1 && carried_exactly(s);
+    return surface_has_symmetry(s) && carried_exactly(s);
 }
 
 /* --- The half plane --------------------------------------------------------------------------- */

@@ -41,13 +41,67 @@ imp_status surface_symmetry(const surface *s, imp_symmetry *found)
     return symmetry_is_sane(found) ? IMP_STATUS_OK : SURFACE_BAD_SYMMETRY;
 }
 
-imp_status surface_closed_symmetry(const surface *s, imp_symmetry *found)
+/* Like surface_closed_symmetry, for what is no surface of several pieces. */
+static imp_status closed_alone(const surface *s, imp_symmetry *found)
 {
-    if (!IMP_OFFERS(s->type, symmetry) || s->piece_count > 1) return IMP_STATUS_UNBOUNDED;
     const imp_status status = surface_symmetry(s, found);
     if (status != IMP_STATUS_OK) return status;
     if ((found->is_closed & IMP_SYMMETRY_CLOSED) == 0 || symmetry_is_screw(found))
         return IMP_STATUS_UNBOUNDED;
     if (found->kind != IMP_SYMMETRY_ABOUT_POINT) found->kind = IMP_SYMMETRY_ABOUT_LINE;
     return IMP_STATUS_OK;
+}
+
+/* Whether x lies on the line of `line`, or is its center: in exact arithmetic, so that few lines
+ * other than those along coordinates are known to hold another point than their center. */
+static bool is_on_line(const imp_symmetry *line, const double x[3])
+{
+    int along = 0;
+    bool is_center = true, is_beside = false;
+    for (int i = 0; i < 3; ++i) {
+        along += line->axis[i] != 0;
+        is_center = is_center && x[i] == line->center[i];
+        is_beside = is_beside || (line->axis[i] == 0 && x[i] != line->center[i]);
+    }
+    return is_center || (line->kind != IMP_SYMMETRY_ABOUT_POINT && along == 1 && !is_beside);
+}
+
+static bool has_axis_of(const imp_symmetry *x, const imp_symmetry *line)
+{
+    bool same = true;
+    for (int i = 0; i < 3; ++i) same = same && x->axis[i] == line->axis[i];
+    return same;
+}
+
+/* Takes one more piece into the rotations that keep all pieces so far. False: they have none in
+ * common that is known. */
+static bool join_symmetry(imp_symmetry *all, const imp_symmetry *one)
+{
+    const bool is_point = one->kind == IMP_SYMMETRY_ABOUT_POINT;
+    if (all->kind != IMP_SYMMETRY_ABOUT_POINT)
+        return is_on_line(all, one->center) && (is_point || has_axis_of(one, all));
+    if (!is_on_line(one, all->center)) return false;
+    if (!is_point) *all = *one;
+    return true;
+}
+
+enum { PIECES_ASKED = 64 };
+
+/* Lemma. If each piece is closed under the rotations about one line, so is the surface. */
+static imp_status closed_together(const surface *s, imp_symmetry *found)
+{
+    if (s->piece_count > PIECES_ASKED) return IMP_STATUS_UNBOUNDED;
+    imp_status status = closed_alone(surface_piece(s, 0), found);
+    for (size_t k = 1; k < s->piece_count && status == IMP_STATUS_OK; ++k) {
+        imp_symmetry one;
+        status = closed_alone(surface_piece(s, k), &one);
+        if (status == IMP_STATUS_OK && !join_symmetry(found, &one)) status = IMP_STATUS_UNBOUNDED;
+    }
+    return status;
+}
+
+imp_status surface_closed_symmetry(const surface *s, imp_symmetry *found)
+{
+    if (!IMP_OFFERS(s->type, symmetry)) return IMP_STATUS_UNBOUNDED;
+    return s->piece_count > 1 ? closed_together(s, found) : closed_alone(s, found);
 }

@@ -130,37 +130,61 @@ static size_t two(const void *self)
 
 static const void *piece_of(const void *self, size_t k) { return (const imp_symmetry *)self + k; }
 
-/* The type of a surface of pieces is asked for the first piece; motions of that within itself move
- * the others. */
-START_TEST(the_symmetry_of_one_piece_is_not_that_of_all)
+/* The slip of a surface of two pieces that turns about the z axis, beside one at rest that has no
+ * closed symmetry. */
+static double slip_of_two(const imp_symmetry pieces[2])
 {
     imp_surface_type many = target;
-    imp_symmetry symmetry[2] = {
-        {.kind = IMP_SYMMETRY_ABOUT_LINE, .is_closed = 1, .axis = {0, 0, 1}}};
     imp_symmetry open = ball();
     motion spin = {.rate = 1}, *const none[] = {&spin};
     const imp_region times = region_make((double[3]){0, 0, 0}, (double[3]){1, 1, 1});
     imp_model bare[2][3];
-    double slip[2];
+    double slip;
     int asked;
     many.piece_count = two;
     many.piece = piece_of;
-    symmetry[1] = symmetry[0];
-    symmetry[1].center[0] = 9;
     for (int i = 0; i < 3; ++i) bare[0][i] = bare[1][i] = imp_between(-12, 12);
-    for (int k = 0; k < 2; ++k) {
-        surface *turns = surface_new(k == 0 ? &target : &many, symmetry);
-        surface *rests = compose(&open, none, 0);
-        const surface *const both[2] = {rests, turns};
-        ck_assert_int_eq(surface_add_map(turns, &exactly, &spin), IMP_SUCCESS);
-        ck_assert_int_eq(surface_divide(turns), IMP_SUCCESS);
-        ck_assert_int_eq(surface_pair_slip(both, bare, &times, 0, &slip[k], &asked), IMP_STATUS_OK);
-        surface_free(turns);
-        surface_free(rests);
+    surface *turns = surface_new(&many, (void *)(uintptr_t)pieces);
+    surface *rests = compose(&open, none, 0);
+    const surface *const both[2] = {rests, turns};
+    ck_assert_int_eq(surface_add_map(turns, &exactly, &spin), IMP_SUCCESS);
+    ck_assert_int_eq(surface_divide(turns), IMP_SUCCESS);
+    ck_assert_int_eq(surface_pair_slip(both, bare, &times, 0, &slip, &asked), IMP_STATUS_OK);
+    surface_free(turns);
+    surface_free(rests);
+    return slip;
+}
+
+START_TEST(a_surface_of_pieces_turns_within_itself_if_all_of_them_do)
+{
+    const imp_symmetry wheel = {.kind = IMP_SYMMETRY_ABOUT_LINE, .is_closed = 1, .axis = {0, 0, 1}};
+    imp_symmetry higher = wheel, across = wheel, globe = {.kind = IMP_SYMMETRY_ABOUT_POINT};
+    imp_symmetry beside = wheel, oblique = wheel, open = wheel, screw = wheel, far_globe;
+    higher.center[2] = 9;
+    across.kind = IMP_SYMMETRY_ACROSS_LINE;
+    globe.is_closed = 1;
+    globe.center[2] = -2;
+    beside.center[0] = 0x1p-60;
+    oblique.axis[0] = 0x1p-60;
+    open.is_closed = 0;
+    screw.kind = IMP_SYMMETRY_SCREW_RIGHT;
+    far_globe = globe;
+    far_globe.center[1] = 1;
+    const imp_symmetry *const within[] = {&wheel, &higher, &across, &globe}, *const beyond[] = {
+                                                                                 &beside, &oblique,
+                                                                                 &open, &screw,
+                                                                                 &far_globe};
+    for (int k = 0; k < 4; ++k) {
+        ck_assert_double_lt(slip_of_two((imp_symmetry[2]){wheel, *within[k]}), 1e-12);
+        ck_assert_double_lt(slip_of_two((imp_symmetry[2]){*within[k], wheel}), 1e-12);
     }
-    ck_assert(slip[0] < 1e-3 && slip[1] == INFINITY);
+    for (int k = 0; k < 5; ++k) {
+        ck_assert(slip_of_two((imp_symmetry[2]){wheel, *beyond[k]}) == INFINITY);
+        ck_assert(slip_of_two((imp_symmetry[2]){*beyond[k], wheel}) == INFINITY);
+    }
+    ck_assert(slip_of_two((imp_symmetry[2]){globe, far_globe}) == INFINITY);
 }
 END_TEST
 
 SUITE_MAIN("slip_pairs", no_pair_comes_nearer_than_by_its_slip,
-           the_symmetry_of_one_piece_is_not_that_of_all)
+           a_surface_of_pieces_turns_within_itself_if_all_of_them_do)

@@ -11,6 +11,9 @@
 #define BOX(SIZE, CENTER) "{'type':'box','size':[" SIZE "],'center':[" CENTER "]}"
 #define CYLINDER(RADIUS, HEIGHT, CENTER)                                                           \
     "{'type':'cylinder','radius':" RADIUS ",'height':" HEIGHT ",'center':[" CENTER "]}"
+#define CAN(RADIUS, HEIGHT, CENTER)                                                                \
+    "{'type':'cylinder','ends':true,'radius':" RADIUS ",'height':" HEIGHT ",'center':[" CENTER "]" \
+    "}"
 #define SPHERE(RADIUS, CENTER) "{'type':'sphere','radius':" RADIUS ",'center':[" CENTER "]}"
 #define TORUS(MAJOR, MINOR) "{'type':'torus','major_radius':" MAJOR ",'minor_radius':" MINOR "}"
 #define PLANE(ORIGIN, U, V)                                                                        \
@@ -96,6 +99,11 @@ const everyday_family everyday_families[] = {
     /* symmetries */
     {"rollers", CYLINDER("1", "4", "0,0,0"), TURN(Z_AXIS, "20"), CYLINDER("1", "4", "@2,0,0"),
      TURN_AT(Z_AXIS, "-20", "@2,0,0"), BOND_NONE, 0, false, FIVE, 50, "", ""},
+    {"rollers with ends", CAN("1", "4", "0,0,0"), TURN(Z_AXIS, "20"), CAN("1", "3", "@2,0,0.1"),
+     TURN_AT(Z_AXIS, "-20", "@2,0,0"), BOND_NONE, 0, false, FIVE, 50, "", ""},
+    {"shaft with ends that whirls in a bore", CYLINDER("1", "2", "0,0,0"), "",
+     CAN("0.9", "1", "~0.1,0,0"), TURN_AT(Z_AXIS, "5", "~0.1,0,0") "," TURN(Z_AXIS, "1"), BOND_NONE,
+     0, false, FIVE, 1000, "", ""},
     {"roller beside a plate", CYLINDER("1", "4", "0,0,0"), TURN(Z_AXIS, "100"), WALL, "", BOND_NONE,
      0, false, FIVE, 50, "", ""},
     {"wheel that rolls along a wall", CYLINDER("1", "4", "0,-1,0"),

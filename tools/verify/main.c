@@ -15,7 +15,7 @@
 /* impinge-verify: proves a certificate again (core/CERTIFICATE.md). It loads no shared object and
  * trusts nothing in the file. */
 
-enum { GOALS_MAX = 100000, EFFORT = 20000, EFFORT_ELABORATE = 1000000 };
+enum { GOALS_MAX = 100000, EFFORT = 200000, EFFORT_ELABORATE = 1000000 };
 
 /* --- The answer ------------------------------------------------------------------------------- */
 
@@ -90,7 +90,7 @@ static int usage(FILE *to)
           "With SCENE, tells whether it is of this scene file, this version and these plugins.\n\n"
           "  --text        print what is claimed and the tree, a line for each entry\n"
           "  --threads N   processes that prove at once (1)\n"
-          "  --effort N    tests that one leaf may take (20000; 1000000 with --elaborate)\n"
+          "  --effort N    tests that one leaf may take (200000; 1000000 with --elaborate)\n"
           "  --tighten OUT write a shorter certificate of the same claim\n"
           "  --elaborate OUT\n"
           "                write a longer one, which impinge-verify-kernel proves\n"
