@@ -303,10 +303,10 @@ enum {
  * CLOSED: each rotation of the kind maps the surface onto itself. A whole cylinder is closed, half
  * a cylinder is not (a full turn needs IMP_TWO_PI_UPPER). The distance of two bodies that only turn
  * about closed axes never changes. A screw motion takes a point of a surface with screws that is
- * CLOSED to another point of it, unless that is higher or lower along the line than all of the
- * surface: a thread that goes all around, and ends in planes across the line. What is rounded may
- * move the other point by IMP_SCREW_SLACK times the sum of the image's distance from the center and
- * of the lead for each turn and one more.
+ * CLOSED to another point of it, unless that is higher or lower along the line than all points of
+ * the surface at that t: a thread that goes all around, and ends in planes across the line. What is
+ * rounded may move the other point by IMP_SCREW_SLACK (r + (turns + 1) lead), r being the image's
+ * distance from the center.
  *
  * ORBIT_U: points of the same v and t are taken to each other by rotations about the line through
  * the center along the axis (which then counts for ABOUT_POINT, too); ORBIT_V: points of the same u
