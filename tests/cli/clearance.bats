@@ -242,7 +242,7 @@ END
     valid clearance
     json '.reason == "max-pairs" and .lower == 0 and .upper < 1e-3'
     run -3 "$IMPINGE" clearance "${endless[@]:0:2}" --gamma 1e-12 --tolerance 1e-9 --max-pairs 200
-    [[ $output == "nearest distance so far "*"the limit of pairs is reached: raise --max-pairs, or --tolerance"* ]]
+    [[ $output == "nearest distance so far "*"the limit of pairs is reached: raise --max-pairs, or --tolerance; --require asks less"* ]]
 }
 
 @test "what a limit ends comes with advice: alone, with a requirement, and of each pair" {

@@ -144,11 +144,14 @@ static excuse excuse_of(const imp_clearance *r)
     excuse e = result_excuse(r->reason);
     const bool bracket = r->verdict == IMP_REQUIREMENT_NONE;
     if (r->reason == IMP_REASON_PAIRS)
-        e.cure = bracket ? "raise --max-pairs, or --tolerance" : "raise --max-pairs";
+        e.cure = bracket ? "raise --max-pairs, or --tolerance; --require asks less"
+                         : "raise --max-pairs";
     if (r->reason == IMP_REASON_SECONDS)
-        e.cure = bracket ? "raise --max-seconds, or --tolerance" : "raise --max-seconds";
+        e.cure = bracket ? "raise --max-seconds, or --tolerance; --require asks less"
+                         : "raise --max-seconds";
     if (r->reason == IMP_REASON_MEMORY)
-        e.cure = bracket ? "raise --max-bytes, or --tolerance" : "raise --max-bytes";
+        e.cure = bracket ? "raise --max-bytes, or --tolerance; --require asks less"
+                         : "raise --max-bytes";
     if (r->reason == IMP_REASON_RESOLUTION)
         e = (excuse){"double precision resolves no more here",
                      bracket ? "raise --tolerance" : "require a little more or less"};
