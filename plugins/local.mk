@@ -164,6 +164,7 @@ plugins_libcommon_la_SOURCES = \
     plugins/common/keys.c plugins/common/keys.h \
     plugins/common/linear.c plugins/common/linear.h \
     plugins/common/linear_bounds.c plugins/common/linear_internal.h \
+    plugins/common/prism.c plugins/common/prism.h \
     plugins/common/quaternion.c plugins/common/quaternion.h \
     plugins/common/sinc.c plugins/common/sinc.h \
     plugins/common/spin.c plugins/common/spin.h \
@@ -207,6 +208,7 @@ plugins_libpatch_la_SOURCES = \
     plugins/patch/lattice.c plugins/patch/lattice.h \
     plugins/patch/nurbs_cells.c plugins/patch/nurbs_cells.h \
     plugins/patch/nurbs_surface.c plugins/patch/nurbs_surface.h \
+    plugins/patch/outline.c plugins/patch/outline.h \
     plugins/patch/patch.c plugins/patch/patch.h \
     plugins/patch/patch_include.c plugins/patch/patch_include.h \
     plugins/patch/patch_net.c plugins/patch/patch_net.h \
@@ -221,7 +223,7 @@ plugins_libpatch_la_CFLAGS = $(AM_CFLAGS) $(UNROLL_CFLAGS)
 plugins_libpatch_la_LDFLAGS =
 plugins_bezier_la_LIBADD = plugins/libpatch.la
 plugins_bezier_triangle_la_LIBADD = plugins/libpatch.la
-plugins_extrusion_la_LIBADD = plugins/libpatch.la
+plugins_extrusion_la_LIBADD = plugins/libpatch.la plugins/libcommon.la
 plugins_ffd_la_LIBADD = plugins/libpatch.la
 plugins_nurbs_la_LIBADD = plugins/libpatch.la
 plugins_product_la_LIBADD = plugins/libpatch.la

@@ -99,10 +99,35 @@ misses() {
 
 @test "an extrusion is met at its side and at both ends, and holds what is in it" {
     local bar='extrusion profile=[[1,0],[1,1],[-1,1],[-1,-1],[1,-1],[1,0]] degree=1 vector=0,0,4 ends=true'
+    meets "$bar" 5,0.5,2 -1,0,0 3.9 0
+    meets "$bar" 0.3,5,2 0,-1,0 3.9 1
+    meets "$bar" 5,-0.5,2 -1,0,0 3.9 4
+    meets "$bar" 0.7,0.2,-3 0,0,1 2.9 5
+    meets "$bar" 0.2,0.6,7 0,0,-1 2.9 11
+    misses "$bar" 5,1.11,2 -1,0,0
+    bar='extrusion profile=[[1,0],[1,2],[-1,2],[-1,-2],[1,-2],[1,0]] degree=2 vector=0,0,4 ends=true'
     meets "$bar" 5,0,2 -1,0,0 3.9 0
     meets "$bar" 0,0,-3 0,0,1 2.9 1
     meets "$bar" 0,0,7 0,0,-1 2.9 2
-    misses "$bar" 5,1.11,2 -1,0,0
+}
+
+@test "an extrusion of degree 1 is closed by flat pieces, wherever its points are repeated" {
+    scene='{"bodies": [{"name": "bar", "solid": true, "surfaces": [{"type": "extrusion", "degree": 1,
+        "profile": [[1,0.1],[0.3,1.7],[0.3,1.7],[-1.1,1],[-1,-1],[1,-1],[1,0.1]], "vector": [0.3,0.1,4.7],
+        "ends": true}]}, {"name": "pea", "surfaces": [{"type": "sphere", "radius": 0.1, "center": [0.1,0,2]}]}]}'
+    echo "$scene" >bar.json
+    run -0 "$IMPINGE" info bar.json
+    [[ $output == *'bar: 1 surface of 15 pieces, solid, closed'* ]]
+    run -0 "$IMPINGE" solve bar.json --json
+    json '.kind == "inside"'
+    sed 's/0.1,0,2/0.1,9,2/' bar.json >beside.json
+    run -0 "$IMPINGE" solve beside.json --json
+    json '.verdict == "clear"'
+    local square='[[1,1],[-1,1],[-1,-1],[1,-1],[1,1]] degree=1'
+    run -0 "$IMPINGE" pair "extrusion profile=$square ends=true ! rotate axis=1,2,3 angle=[0.7]" \
+        "extrusion profile=$square vector=0,0,3 ! scale factor=1.001,1.001,1 ! translate offset=[[0,0,-1]] ! \
+rotate axis=1,2,3 angle=[0.7]" --gamma 1e-4 --json
+    json '.verdict == "clear" and .stats.pairs < 50'
 }
 
 @test "who is inside a solid body at the start is in contact, for each verb" {

@@ -48,6 +48,16 @@ near='sphere center=2.01,0.1,0.2'
     done
 }
 
+@test "a certificate states the sides and ends of a straight extrusion by exact numbers" {
+    local nut='extrusion profile=[[1,0.1],[0.3,0.9],[-1,0.7],[-0.9,-1],[1,0.1]] degree=1 vector=0.1,0,1 ends=true'
+    run -0 "$IMPINGE" pair "$nut" 'sphere center=0.1,0.2,2.11' --gamma 1e-3 --proof side.proof
+    run -0 verify side.proof
+    [ "${lines[0]}" = holds ]
+    "$IMPINGE" pair "$nut" 'sphere center=3,0.2,0.5 ! translate velocity=-2,0,0' --gamma 1e-3 --proof meets.proof
+    run -0 verify meets.proof
+    [[ ${lines[0]} == holds && ${lines[1]} == contact* ]]
+}
+
 @test "motions that both surfaces share are left out" {
     local turn='rotate axis=0,0,1 rate=2'
     "$IMPINGE" pair "sphere ! $turn" "sphere center=4,0,0 ! $turn" --proof shared.proof

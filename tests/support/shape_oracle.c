@@ -433,7 +433,18 @@ void nurbs_oracle(const type_arguments *arguments, const number p[3], number x[3
     patch_oracle(arguments, along, p[2], x);
 }
 
-/* Points of the curve and, at v = 1, these plus the vector, each rounded to doubles. */
+/* p + u (q - p) + v vector, of the first two points. */
+static void side_oracle(const double *p, const double *vector, const number at[2], number x[3])
+{
+    for (size_t axis = 0; axis < 3; ++axis) {
+        const number along = num_mul(at[1], num(vector[axis]));
+        const number edge = axis < 2 ? num_sub(num(p[2 + axis]), num(p[axis])) : num(0);
+        x[axis] = num_add(num(axis < 2 ? p[axis] : 0), num_add(num_mul(at[0], edge), along));
+    }
+}
+
+/* Points of the curve and, at v = 1, these plus the vector, each rounded to doubles; of degree 1
+ * the first side. */
 void extrusion_oracle(const type_arguments *arguments, const number p[3], number x[3])
 {
     enum { KNOTS_MOST = 64 };
@@ -445,6 +456,10 @@ void extrusion_oracle(const type_arguments *arguments, const number p[3], number
     double made[KNOTS_MOST];
     knot_list k = {.at = knots->count > 0 ? knots->number : made, .count = profile->extent[0]};
     k.degree = degree->count > 0 ? (size_t)degree->number[0] : k.count - 1;
+    if (k.degree == 1) {
+        side_oracle(profile->number, vector, p, x);
+        return;
+    }
     k.length = k.count + k.degree + 1;
     for (size_t i = 0; i < k.length; ++i)
         made[i] = i <= k.degree ? 0 : (double)((i < k.count ? i : k.count) - k.degree);

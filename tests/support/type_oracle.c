@@ -393,10 +393,13 @@ const type_oracle oracles[] = {
                    "{\"k\": [1e8,1e-8,0], \"c\": [@2[?,?]], \"center\": [0,1e8,0]}"}},
     {.type = "extrusion", /* its first piece */
      .surface = extrusion_oracle,
-     .instances = {"{}", "{\"profile\": [@5[?,?]], \"weights\": [@5+], \"vector\": [?,?,1]}",
-                   "{\"profile\": [@9[?,?]], \"degree\": 3, \"vector\": [1e8,0.1,1e-9]}",
-                   "{\"profile\": [@6[1e8,?]], \"degree\": 2, \"knots\": [-2,-1,0,0.5,1,1,4,5,6],"
-                   " \"weights\": [@6+]}"}},
+     .instances =
+         {"{}", "{\"profile\": [@5[?,?]], \"weights\": [@5+], \"vector\": [?,?,1]}",
+          "{\"profile\": [@9[?,?]], \"degree\": 3, \"vector\": [1e8,0.1,1e-9]}",
+          "{\"profile\": [@7[?,?]], \"degree\": 1, \"vector\": [?,?,1], \"weights\": [@7+]}",
+          "{\"profile\": [[?,?],[1e8,?]], \"vector\": [1e8,0.1,1e-9]}",
+          "{\"profile\": [@6[1e8,?]], \"degree\": 2, \"knots\": [-2,-1,0,0.5,1,1,4,5,6],"
+          " \"weights\": [@6+]}"}},
     {.type = "nurbs",
      .surface = nurbs_oracle,
      .instances =

@@ -62,6 +62,18 @@
     "{'type':'trajectory','times':[0,0.5,1],'positions':[[0,0,1],[0,0,0],[0,0,1]],"                \
     "'accelerations':[[0,0,-2],[0,0,-2]]}"
 
+#define EXTRUSION(PROFILE, HEIGHT)                                                                 \
+    "{'type':'extrusion','degree':1,'profile':[" PROFILE "],'vector':[0,0," HEIGHT "]"
+#define HEXAGON                                                                                    \
+    "[1.1547005383792517,0],[0.5773502691896258,1],[-0.5773502691896258,1],"                       \
+    "[-1.1547005383792517,0],[-0.5773502691896258,-1],[0.5773502691896258,-1],"                    \
+    "[1.1547005383792517,0]"
+/* Four splines: a cross of that reach, and of that half width; and their negative values. */
+#define CROSS(R, W, R_, W_)                                                                        \
+    "[" R "," W "],[" W "," W "],[" W "," R "],[" W_ "," R "],[" W_ "," W "],[" R_ "," W "],[" R_  \
+    "," W_ "],[" W_ "," W_ "],[" W_ "," R_ "],[" W "," R_ "],[" W "," W_ "],[" R "," W_ "],[" R    \
+    "," W "]"
+
 #define FIVE "12346"
 
 /* --- Families --------------------------------------------------------------------------------- */
@@ -192,4 +204,12 @@ const everyday_family everyday_families[] = {
     {"disc between rails", BOX("6,1,1", "0,~-1.5,0") "," BOX("6,1,1", "0,@1.5,0"), "",
      TORUS("0.75", "0.25"), TURN(Z_AXIS, "20") "," MOVE("1,0,0"), BOND_NONE, 0, false, "1234", 500,
      "", ""},
+    /* straight profiles */
+    {"hex nut in its socket", EXTRUSION(HEXAGON, "2") "}", PLACE,
+     EXTRUSION(HEXAGON, "1") ",'ends':true}",
+     "{'type':'scale','factor':[~1,~1,1]}," MOVE("0,0,0.5") "," SAME_PLACE, BOND_NONE, 0, false,
+     FIVE, 100, "", ""},
+    {"splined shaft in its hub", EXTRUSION(CROSS("1", "0.3", "-1", "-0.3"), "2") "}", PLACE,
+     EXTRUSION(CROSS("~1", "~0.3", "@-1", "@-0.3"), "1") ",'ends':true}",
+     MOVE("0,0,0.5") "," SAME_PLACE, BOND_NONE, 0, false, FIVE, 1000, "", ""},
     {NULL, "", "", "", "", BOND_NONE, 0, false, "", 0, "", ""}};
