@@ -15,7 +15,7 @@
 #include "tools/verify/sides.h"
 
 enum { DEPTH_MAX = 120, HELD = 7 }; /* HELD: bytes of a leaf */
-enum { CREDIT = 512, CREDIT_A_CELL = 4, CREDIT_A_LEAF = 64 };
+enum { CREDIT = 512, CREDIT_A_CELL = 8, CREDIT_A_LEAF = 64, CREDIT_CLOUD = 8192 };
 
 typedef struct elaboration {
     FILE *to;
@@ -30,7 +30,7 @@ typedef struct elaboration {
     int16_t last[3];    /* its axis */
     unsigned long effort, cells; /* of a leaf */
     elaborated *found;
-    long credit;                      /* enclosures of many pieces that may be in vain */
+    long credit, cloud_credit;        /* enclosures that may be in vain; of them, for points */
     void (*progress)(uint64_t bytes); /* NULL: nobody is told */
     sides sides;
     cloud cloud;
@@ -141,33 +141,45 @@ static size_t widest_clock(const tree *r, const cell *c)
 /* Writes a cell as a leaf with this axis, if there are parts of its sides that do. */
 static bool try_sides(elaboration *e, tree *r, const cell *c, const int16_t axis[3])
 {
-    const bool is_many = c->count[0] > 1 || c->count[1] > 1;
-    if (is_many && e->credit <= 0) return false;
+    if (e->credit <= 0) return false;
     const bool good = sides_find(&e->sides, &r->p, c, axis);
     e->found->tests += e->sides.tests;
-    if (is_many) e->credit += good ? CREDIT_A_LEAF : -(long)e->sides.tests;
+    e->credit += good ? CREDIT_A_LEAF : -(long)e->sides.tests;
     if (good) put_sides(e, axis);
     return good;
 }
 
+/* Seeks an axis by points of both sides, or a clock that is to be divided. These help where motions
+ * are what is too wide. Where the sides are, cells would become ever shorter in time for nothing:
+ * so a leaf has credit for some of them only. */
+static bool write_by_points(elaboration *e, tree *r, const cell *c, aim_cut *cut)
+{
+    cloud *l = &e->cloud;
+    cloud_find(l, &r->p, c);
+    e->found->tests += l->tests;
+    e->cloud_credit -= (long)l->tests;
+    if (l->room > 0 && try_sides(e, r, c, l->axis)) {
+        e->cloud_credit += CREDIT_A_LEAF;
+        return true;
+    }
+    if (l->always > 2 * fmax(l->room, 0)) *cut = (aim_cut){2, widest_clock(r, c)};
+    return false;
+}
+
 /* Writes a cell as a leaf whose sides are divided; false: changes by what the cell is to be divided
- * instead. The axis of the leaf before is tried first. */
+ * instead. The axis of the leaf before is tried first, if there is one. */
 static bool write_sides(elaboration *e, tree *r, const cell *c, const int16_t axis[3],
                         const int16_t other[3], aim_cut *cut)
 {
-    cloud *l = &e->cloud;
     const bool is_some = axis[0] != 0 || axis[1] != 0 || axis[2] != 0;
     e->sides.clock = -1;
     e->credit += CREDIT_A_CELL;
     if (is_some && try_sides(e, r, c, axis)) return true;
-    if (e->sides.clock < 0) {
-        cloud_find(l, &r->p, c);
-        e->found->tests += l->tests;
-        const bool is_known = l->room > -INFINITY;
-        if ((!is_known || l->room > 0) && try_sides(e, r, c, is_known ? l->axis : other))
-            return true;
-        if (l->always > 2 * fmax(l->room, 0)) *cut = (aim_cut){2, widest_clock(r, c)};
-    }
+    const int clock = e->sides.clock;
+    if (memcmp(axis, other, 3 * sizeof *axis) != 0 && try_sides(e, r, c, other)) return true;
+    if (e->cloud_credit <= 0) return false;
+    if (clock >= 0) e->sides.clock = clock;
+    if (e->sides.clock < 0 && write_by_points(e, r, c, cut)) return true;
     if (e->sides.clock >= 0) *cut = (aim_cut){2, (size_t)e->sides.clock};
     return false;
 }
@@ -206,7 +218,7 @@ static bool take_leaf(void *context, tree *r, const cell *c, unsigned op)
     put_held(e, e->held_count - size);
     e->held_count = 0;
     e->cells = 0;
-    e->credit = CREDIT;
+    e->credit = CREDIT, e->cloud_credit = CREDIT_CLOUD;
     for (int i = 0; i < 3 && op != TREES_ALONE; ++i) hint[i] = (int16_t)r->axis[i];
     return write_cell(e, r, c, hint, 0);
 }
