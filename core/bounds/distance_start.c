@@ -8,7 +8,7 @@
 /* How often the window is cut at most, into which part of the part before, and how many parts may
  * do without a later start: where the distance is inexact by itself, shorter times are of no use.
  * Remainders of third order are a 64th of those before. A window that begins close to the contact
- * needs parts whose remainders are less than what is left: 2^-48 of those of the first part. */
+ * needs short parts: after 8 of them in vain, such remainders are 2^-48 of what they were. */
 enum { PARTS = 40, PARTS_IN_VAIN = 8 };
 #define NEXT_PART 0.25
 

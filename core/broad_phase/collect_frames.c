@@ -141,7 +141,10 @@ static imp_code find_slip(collection *all, candidate *const side[2], const time_
     const imp_region all_times =
         region_make((double[3]){0, 0, times->lo}, (double[3]){0, 0, times->hi});
     int asked = 1;
-    const imp_status status = surface_pair_slip(s, bare, &all_times, times->lo, slip, &asked);
+    /* impinge-verify finds no such turn itself, and needs leaves that are short in time. */
+    const bool of_pieces = all->may_halve;
+    const imp_status status =
+        surface_pair_slip(s, of_pieces, bare, &all_times, times->lo, slip, &asked);
     const screw_rest_times at = {&all_times, times->lo, 0.5 * all->slip_most};
     if (status == IMP_STATUS_OK && all->may_halve && !(*slip <= all->slip_most) &&
         (surface_is_screw_piece(s[0]) || surface_is_screw_piece(s[1])))
@@ -166,7 +169,9 @@ static imp_code rest_pair(collection *all, frame_list *frames, size_t k, double 
     double slip;
     imp_code code = frames_make_roots(all, frames, k, &times, error);
     if (code != IMP_SUCCESS || times.lo > times.hi) return code;
-    if (!frames_look_at_pair(all, frames, k, &times)) return IMP_SUCCESS;
+    bool may_rest;
+    code = frames_look_at_pair(all, frames, k, &times, &may_rest, error);
+    if (code != IMP_SUCCESS || !may_rest) return code;
     candidate *const side[2] = {&frames->at[of_pair[0]].made, &frames->at[of_pair[1]].made};
     code = find_slip(all, side, &times, &slip, error);
     if (code != IMP_SUCCESS || !(slip <= all->slip_most)) return code;

@@ -36,22 +36,27 @@ static bool is_seen(const frame *f, const time_window *times)
     return f->seen.from == times->lo && f->seen.to == times->hi;
 }
 
-/* Glances at a frame's surface, unless that is done. False: there is no point to follow. */
-static bool look(frame *f, const time_window *times)
+/* Glances at a frame's surface, unless that is done. *has_middle false: there is no point to
+ * follow. */
+static imp_code look(frame *f, const time_window *times, bool *has_middle, imp_error *error)
 {
     const tree *t = f->made.tree;
     const surface *s = tree_surface(t);
     imp_model bare[3];
     double middle[3] = {0, 0, 0};
-    if (is_seen(f, times)) return f->seen.has_middle;
-    const bool is_told = surface_has_middle(s);
+    bool is_told;
+    *has_middle = is_seen(f, times) && f->seen.has_middle;
+    if (is_seen(f, times)) return IMP_SUCCESS;
+    const imp_status status = surface_has_middle(s, &is_told);
+    if (status != IMP_STATUS_OK) return distance_fault(s, status, error);
     if (!is_told && !node_bare_models(tree_root(t), bare)) {
         f->seen = (surface_glance){.from = times->lo, .to = times->hi};
-        return false;
+        return IMP_SUCCESS;
     }
     for (int i = 0; i < 3 && !is_told; ++i) middle[i] = bare[i].a;
     surface_glance_at(s, middle, times->lo, times->hi, &f->seen);
-    return true;
+    *has_middle = true;
+    return IMP_SUCCESS;
 }
 
 /* No point of a box is nearer than this to all of its corners. */
@@ -80,13 +85,20 @@ static int count_screws(frame *const f[2])
            surface_is_screw_piece(tree_surface(f[1]->made.tree));
 }
 
-bool frames_look_at_pair(collection *all, frame_list *frames, size_t k, const time_window *times)
+imp_code frames_look_at_pair(collection *all, frame_list *frames, size_t k,
+                             const time_window *times, bool *may_rest, imp_error *error)
 {
     frame *const f[2] = {frame_of(frames, k, 0), frame_of(frames, k, 1)};
-    if (!look(f[0], times) || !look(f[1], times)) return false;
+    bool has_middle = true;
+    imp_code code = IMP_SUCCESS;
+    *may_rest = false;
+    for (int side = 0; side < 2 && has_middle && code == IMP_SUCCESS; ++side)
+        code = look(f[side], times, &has_middle, error);
+    if (code != IMP_SUCCESS || !has_middle) return code;
     for (int side = 0; side < 2; ++side)
         note_slips(all, f[side], f[!side], side, &all->list->pairs[k].slips);
-    return (all->may_halve && count_screws(f) > 0) || !glances_part(&f[0]->seen, &f[1]->seen);
+    *may_rest = (all->may_halve && count_screws(f) > 0) || !glances_part(&f[0]->seen, &f[1]->seen);
+    return IMP_SUCCESS;
 }
 
 bool frames_lack_common_line(const collection *all, const frame_list *frames, size_t k,

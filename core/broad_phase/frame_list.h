@@ -36,9 +36,10 @@ imp_code frames_make_roots(collection *all, const frame_list *frames, size_t k, 
                            imp_error *error);
 
 /* Glances at both surfaces of pair k, with roots, over their common times, and notes which slips
- * are too large to be of use. False: no point of a surface is known that its maps carry, or both
- * surely do not only turn within themselves. */
-bool frames_look_at_pair(collection *all, frame_list *frames, size_t k, const time_window *times);
+ * are too large to be of use. *may_rest false: no point of a surface is known that its maps carry,
+ * or both surely do not only turn within themselves. */
+imp_code frames_look_at_pair(collection *all, frame_list *frames, size_t k,
+                             const time_window *times, bool *may_rest, imp_error *error);
 
 /* Whether the glances at pair k show that its surfaces are not closed about one line. */
 bool frames_lack_common_line(const collection *all, const frame_list *frames, size_t k,

@@ -32,9 +32,9 @@ static inline bool symmetry_is_screw(const imp_symmetry *found)
     return found->kind == IMP_SYMMETRY_SCREW_RIGHT || found->kind == IMP_SYMMETRY_SCREW_LEFT;
 }
 
-/* Returns the rotations that keep the whole surface, all of its pieces. IMP_STATUS_UNBOUNDED: none
- * are known. */
-imp_status surface_closed_symmetry(const surface *s, imp_symmetry *found);
+/* Returns the rotations that keep the whole surface; of several pieces, if of_pieces, those that
+ * keep each of them. IMP_STATUS_UNBOUNDED: none are known. */
+imp_status surface_closed_symmetry(const surface *s, bool of_pieces, imp_symmetry *found);
 
 /* Whether all maps are rigid in exact arithmetic: rotations and shifts. */
 bool carried_exactly(const surface *s);

@@ -20,10 +20,12 @@ static double distance(const double x[3], const double y[3])
     return sqrt(square);
 }
 
-bool surface_has_middle(const surface *s)
+imp_status surface_has_middle(const surface *s, bool *has_middle)
 {
     imp_symmetry found;
-    return surface_closed_symmetry(s, &found) == IMP_STATUS_OK;
+    const imp_status status = surface_closed_symmetry(s, true, &found);
+    *has_middle = status == IMP_STATUS_OK;
+    return status == IMP_STATUS_UNBOUNDED ? IMP_STATUS_OK : status;
 }
 
 /* Replaces the end of an axis by its direction. */
@@ -37,7 +39,7 @@ void surface_glance_at(const surface *s, const double middle[3], double from, do
                        surface_glance *g)
 {
     imp_symmetry own, closed;
-    const bool is_closed = surface_closed_symmetry(s, &closed) == IMP_STATUS_OK;
+    const bool is_closed = surface_closed_symmetry(s, true, &closed) == IMP_STATUS_OK;
     *g = (surface_glance){.from = from, .to = to, .has_middle = true, .is_known = true};
     g->has_axis = is_closed && closed.kind == IMP_SYMMETRY_ABOUT_LINE;
     g->is_about = is_closed && surface_symmetry(s, &own) == IMP_STATUS_OK &&

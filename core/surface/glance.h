@@ -29,8 +29,9 @@ typedef struct surface_glance {
 void surface_glance_at(const surface *s, const double middle[3], double from, double to,
                        surface_glance *g);
 
-/* Whether a closed symmetry tells its middle. */
-bool surface_has_middle(const surface *s);
+/* Finds whether a closed symmetry tells its middle. A status other than OK: its type broke the
+ * ABI. */
+imp_status surface_has_middle(const surface *s, bool *has_middle);
 
 /* Whether two surfaces surely do not only turn within themselves: as long as they do, their middles
  * are always as far apart. */

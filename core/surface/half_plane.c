@@ -119,7 +119,7 @@ imp_status surface_half_plane(const surface *const s[2], const half_plane_boxes 
     *slip = INFINITY;
     for (int k = 0; k < 4; ++k) {
         *asked = k % 2;
-        const imp_status status = k < 2 ? surface_closed_symmetry(s[k], &found[k])
+        const imp_status status = k < 2 ? surface_closed_symmetry(s[k], true, &found[k])
                                         : feature_carry(s[k - 2], &found[k - 2], times, &f[k - 2]);
         if (status != IMP_STATUS_OK) return status == IMP_STATUS_UNBOUNDED ? IMP_STATUS_OK : status;
         if (k == 1 && found[0].kind != IMP_SYMMETRY_ABOUT_LINE &&

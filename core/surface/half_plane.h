@@ -25,7 +25,7 @@ typedef struct half_plane_boxes {
     const double *lo[2], *hi[2];
 } half_plane_boxes;
 
-/* Whether s is closed under rotations (surface_half_plane may know more), without an error. */
+/* Whether s may be closed under rotations, before its type is asked. */
 bool surface_may_have_half_plane(const surface *s);
 
 /* Computes what holds the half plane on each surface, and *slip: at each time of `times`, two

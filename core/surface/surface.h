@@ -255,9 +255,10 @@ imp_status surface_height_within(const surface *s, const surface_plane *plane,
 /* Bounds how much the distance of two surfaces at any time differs from that at `moment`, one of
  * the times. INFINITY: no bound. *slip is mere rounding where both turn only within themselves, or
  * by a symmetry of one of them: rollers, a shaft in its bore. `bare` holds models of all points of
- * each surface before its maps, of which only the ranges are used; neither moves by itself. *asked
+ * each surface before its maps, of which only the ranges are used; neither moves by itself.
+ * of_pieces: a surface of several pieces may turn within itself, too. *asked
  * becomes the side whose symmetry callback was called last, for error messages. */
-imp_status surface_pair_slip(const surface *const s[2], const imp_model bare[2][3],
+imp_status surface_pair_slip(const surface *const s[2], bool of_pieces, const imp_model bare[2][3],
                              const imp_region *times, double moment, double *slip, int *asked);
 
 /* Counts the maps, from the last one back, that are the same instances on both surfaces. */

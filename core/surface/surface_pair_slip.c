@@ -39,12 +39,12 @@ static imp_status slip_of_first(const surface *s, size_t maps, const imp_symmetr
 }
 
 /* Counts how many of the first maps together only turn s within itself, and bounds their slip. */
-static imp_status first_maps_within(const surface *s, const imp_model bare[3],
+static imp_status first_maps_within(const surface *s, bool of_pieces, const imp_model bare[3],
                                     const imp_region *times, const imp_region *then, size_t *maps,
                                     double *slip)
 {
     imp_symmetry found;
-    imp_status status = surface_closed_symmetry(s, &found);
+    imp_status status = surface_closed_symmetry(s, of_pieces, &found);
     *maps = 0;
     *slip = 0;
     if (status != IMP_STATUS_OK) return status == IMP_STATUS_UNBOUNDED ? IMP_STATUS_OK : status;
@@ -61,7 +61,7 @@ static imp_status first_maps_within(const surface *s, const imp_model bare[3],
 }
 
 /* Bounds in *slip how far a's motion, as seen from b, leaves b's closed symmetry. */
-static imp_status slip_of_rest(const surface *const s[2], const size_t still[2],
+static imp_status slip_of_rest(const surface *const s[2], bool of_pieces, const size_t still[2],
                                const imp_model *bare, const imp_region *times,
                                const imp_region *then, double *slip)
 {
@@ -74,7 +74,7 @@ static imp_status slip_of_rest(const surface *const s[2], const size_t still[2],
                     .then = *then,
                     .bare = bare};
     *slip = INFINITY;
-    imp_status status = surface_closed_symmetry(s[1], &q.found);
+    imp_status status = surface_closed_symmetry(s[1], of_pieces, &q.found);
     if (status == IMP_STATUS_OK) status = slip_find(&q, times, slip);
     return status == IMP_STATUS_UNBOUNDED ? IMP_STATUS_OK : status;
 }
@@ -117,7 +117,7 @@ static imp_status add_off(const surface *const s[2], const imp_model bare[2][3],
     return status == IMP_STATUS_UNBOUNDED ? IMP_STATUS_OK : status;
 }
 
-imp_status surface_pair_slip(const surface *const s[2], const imp_model bare[2][3],
+imp_status surface_pair_slip(const surface *const s[2], bool of_pieces, const imp_model bare[2][3],
                              const imp_region *times, double moment, double *slip, int *asked)
 {
     const imp_region then = slip_at_times(times, moment, moment);
@@ -128,16 +128,16 @@ imp_status surface_pair_slip(const surface *const s[2], const imp_model bare[2][
     for (int k = 0; k < 2; ++k) {
         *asked = k;
         const imp_status status =
-            first_maps_within(s[k], bare[k], times, &then, &still[k], &own[k]);
+            first_maps_within(s[k], of_pieces, bare[k], times, &then, &still[k], &own[k]);
         if (status != IMP_STATUS_OK) return status;
     }
     if (still[0] < s[0]->map_count || still[1] < s[1]->map_count) {
-        imp_status status = slip_of_rest(s, still, bare[0], times, &then, &rest);
+        imp_status status = slip_of_rest(s, of_pieces, still, bare[0], times, &then, &rest);
         if (status == IMP_STATUS_OK && !(rest < INFINITY)) {
             const surface *const turned[2] = {s[1], s[0]};
             *asked = 0;
-            status =
-                slip_of_rest(turned, (size_t[2]){still[1], still[0]}, bare[1], times, &then, &rest);
+            status = slip_of_rest(turned, of_pieces, (size_t[2]){still[1], still[0]}, bare[1],
+                                  times, &then, &rest);
         }
         if (status != IMP_STATUS_OK) return status;
     }

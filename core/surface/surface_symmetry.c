@@ -100,8 +100,9 @@ static imp_status closed_together(const surface *s, imp_symmetry *found)
     return status;
 }
 
-imp_status surface_closed_symmetry(const surface *s, imp_symmetry *found)
+imp_status surface_closed_symmetry(const surface *s, bool of_pieces, imp_symmetry *found)
 {
-    if (!IMP_OFFERS(s->type, symmetry)) return IMP_STATUS_UNBOUNDED;
+    if (!IMP_OFFERS(s->type, symmetry) || (s->piece_count > 1 && !of_pieces))
+        return IMP_STATUS_UNBOUNDED;
     return s->piece_count > 1 ? closed_together(s, found) : closed_alone(s, found);
 }

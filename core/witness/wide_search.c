@@ -99,5 +99,7 @@ imp_code witness_seek_widely(const node *const nodes[2], double t, double gamma,
         }
     imp_code code = witness_at(nodes, t, y, found, error);
     if (code == IMP_SUCCESS) code = descend(nodes, t, gamma, found, error);
-    return code == IMP_SUCCESS ? cross_seams(nodes, t, gamma, found, error) : code;
+    if (code == IMP_SUCCESS) code = cross_seams(nodes, t, gamma, found, error);
+    /* The way between points that are just near enough may be far from the normals. */
+    return code == IMP_SUCCESS ? witness_polish(nodes, t, found, error) : code;
 }

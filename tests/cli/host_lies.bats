@@ -124,6 +124,7 @@ whole='over u [-1, 1], v [-1, 1], t [0, 1]'
 
 @test "lies that the search meets end it, and --audit finds the others" {
     takes include_lies rate_lies
+    local ball='sphere radius=.5 center=.3,.2,.9' # which the half of its speed meets, too
     blames include_lies "body 'a', surface 0: type 'include_lies' breaks its own bounds $whole: at u = "
     blames 'rate_lies height=.5' "type 'rate_lies height=0.5' breaks its own bounds $whole: at u = " --audit
     blames include_lies "breaks its own bounds" --audit

@@ -314,7 +314,7 @@ three() {
     valid result
     jq -es 'map(.gamma) == [0.1, 0.01, 0.001] and all(.verdict == "contact" and .gap <= .gamma)' <<<"$output"
     arms >arms.json # 0.1 apart: a contact at the first only
-    run -0 "$IMPINGE" solve arms.json --refine 0.15,0.05 --json
+    run -0 "$IMPINGE" solve arms.json --refine 0.25,0.05 --json
     jq -es 'map(.verdict) == ["contact", "clear"]' <<<"$output"
     run -3 "$IMPINGE" solve arms.json --refine 0.05,0.01 --max-boxes 1 --json
     jq -es 'map(.verdict) == ["undecided"]' <<<"$output"

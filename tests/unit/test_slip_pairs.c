@@ -103,8 +103,9 @@ static tally try_pairs(double factor)
             }
         }
         const surface *const both[2] = {s[0], s[1]};
-        ck_assert_int_eq(surface_pair_slip(both, bare, &y.times, y.times.lo[2], &slip, &asked),
-                         IMP_STATUS_OK);
+        ck_assert_int_eq(
+            surface_pair_slip(both, true, bare, &y.times, y.times.lo[2], &slip, &asked),
+            IMP_STATUS_OK);
         judge_pair(&y, slip, factor, &random, &of);
         surface_free(s[0]);
         surface_free(s[1]);
@@ -149,7 +150,7 @@ static double slip_of_two(const imp_symmetry pieces[2])
     const surface *const both[2] = {rests, turns};
     ck_assert_int_eq(surface_add_map(turns, &exactly, &spin), IMP_SUCCESS);
     ck_assert_int_eq(surface_divide(turns), IMP_SUCCESS);
-    ck_assert_int_eq(surface_pair_slip(both, bare, &times, 0, &slip, &asked), IMP_STATUS_OK);
+    ck_assert_int_eq(surface_pair_slip(both, true, bare, &times, 0, &slip, &asked), IMP_STATUS_OK);
     surface_free(turns);
     surface_free(rests);
     return slip;
