@@ -38,7 +38,7 @@ range range_square(const range x[3]); /* the sum of the three squares, or 0 */
 
 enum { SLOPE_VARIABLES = 8 };
 typedef struct slope {
-    unsigned on;         /* bit j: it may depend on variable j; the other s[j] are 0, not kept */
+    unsigned on;         /* bit j: it may depend on variable j; the other s[j] are exactly 0 */
     bool is_undefined;   /* it may have no value somewhere in the box */
     const range *offset; /* of each variable, from its middle; NULL: it depends on none */
     range v, c, s[SLOPE_VARIABLES];
