@@ -172,6 +172,8 @@ static imp_code rest_pair(collection *all, frame_list *frames, size_t k, double 
     bool may_rest;
     code = frames_look_at_pair(all, frames, k, &times, &may_rest, error);
     if (code != IMP_SUCCESS || !may_rest) return code;
+    /* impinge-verify would have to divide what turns beside another line until it hardly turns. */
+    if (!all->may_halve && frames_have_two_lines(frames, k)) return IMP_SUCCESS;
     candidate *const side[2] = {&frames->at[of_pair[0]].made, &frames->at[of_pair[1]].made};
     code = find_slip(all, side, &times, &slip, error);
     if (code != IMP_SUCCESS || !(slip <= all->slip_most)) return code;

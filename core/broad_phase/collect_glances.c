@@ -101,6 +101,13 @@ imp_code frames_look_at_pair(collection *all, frame_list *frames, size_t k,
     return IMP_SUCCESS;
 }
 
+bool frames_have_two_lines(const frame_list *frames, size_t k)
+{
+    const surface_glance *const seen[2] = {&frame_of(frames, k, 0)->seen,
+                                           &frame_of(frames, k, 1)->seen};
+    return seen[0]->has_axis && seen[1]->has_axis && glances_are_off_line(seen[0], seen[1], 0);
+}
+
 bool frames_lack_common_line(const collection *all, const frame_list *frames, size_t k,
                              const time_window *times)
 {

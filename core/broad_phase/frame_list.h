@@ -41,6 +41,9 @@ imp_code frames_make_roots(collection *all, const frame_list *frames, size_t k, 
 imp_code frames_look_at_pair(collection *all, frame_list *frames, size_t k,
                              const time_window *times, bool *may_rest, imp_error *error);
 
+/* Whether the surfaces of pair k, glanced at, are closed about a line each, and not about one. */
+bool frames_have_two_lines(const frame_list *frames, size_t k);
+
 /* Whether the glances at pair k show that its surfaces are not closed about one line. */
 bool frames_lack_common_line(const collection *all, const frame_list *frames, size_t k,
                              const time_window *times);

@@ -373,3 +373,13 @@ patch_certificate() {
     [ "$(grep -v ': holds$' verdicts | sort)" = 'map bend: holds assuming bend
 surface subdivision: holds assuming subdivision' ]
 }
+
+@test "certificates of rollers that spin beside each other hold" {
+    local ends
+    for ends in false true; do
+        run -0 "$IMPINGE" pair "cylinder radius=.4 ends=$ends ! rotate rate=5" \
+            "cylinder radius=.7 height=1.1 center=1.101,0,.1 ends=$ends" --gamma 1e-3 --proof rollers
+        [[ $output == clear* ]]
+        run -0 verify rollers --quiet
+    done
+}
