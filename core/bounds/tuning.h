@@ -138,8 +138,8 @@ TUNING_NUMBER(TUNING_FIELD_COSINE, 0.9);
 /* Between two faces, a dividing surface takes the turning axis' place where that leaves terms of
  * third order that are more than this times the remainders along it (set: saddles). */
 TUNING_INTEGER(TUNING_THIRD_OF_REMAINDER, 2);
-/* Else it is tried where a turning axis does not cut all, and this times its terms of third order
- * is more than all that is subtracted. */
+/* A dividing surface is tried after a turning axis that does not cut all, where this times its
+ * terms of third order is more than all that is subtracted. */
 TUNING_INTEGER(TUNING_THIRD_SHARE, 2);
 /* A turning axis is tried after fixed axes while one trial in this many cuts more than they do. */
 TUNING_INTEGER(TUNING_FIELD_SHARE, 8);

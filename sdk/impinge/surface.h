@@ -166,10 +166,10 @@ typedef struct imp_create_error {
      * that many bytes. 0: a limit on time or memory was reached; free everything and return
      * IMP_STATUS_INTERNAL, and the host tells the limit. NULL: no limits. Use imp_goes_on. */
     int (*goes_on)(struct imp_create_error *why, uint64_t bytes);
-    /* Told of each file that create reads and no value names (the buffers of an asset, say), before
-     * it is opened: `path` as for fopen, NUL-terminated. The host copies it, and certificates of
-     * the scene then hold the file's hash. 0: no memory; free everything and return
-     * IMP_STATUS_INTERNAL. NULL: nobody asks. Use imp_reads. */
+    /* Create calls this before it opens a file that no value names (the buffers of an asset, say):
+     * `path` as for fopen, NUL-terminated. The host copies it, and certificates of the scene then
+     * hold the file's hash. 0: no memory; free everything and return IMP_STATUS_INTERNAL. NULL:
+     * nobody asks. Use imp_reads. */
     int (*reads)(struct imp_create_error *why, const char *path);
 } imp_create_error;
 

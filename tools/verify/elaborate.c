@@ -31,7 +31,7 @@ typedef struct elaboration {
     unsigned long effort, cells; /* of a leaf */
     elaborated *found;
     long credit, cloud_credit;        /* enclosures that may be in vain; of them, for points */
-    void (*progress)(uint64_t bytes); /* NULL: nobody is told */
+    void (*progress)(uint64_t bytes); /* NULL: no progress is reported */
     sides sides;
     cloud cloud;
 } elaboration;

@@ -20,7 +20,7 @@ typedef struct elaborated {
 } elaborated;
 
 /* Reads a certificate and writes the other one; `effort`: cells that a leaf may become; `progress`
- * is told at each cell how many bytes have been read (NULL: not). False: found->why tells. */
+ * (or NULL) is called at each cell with the bytes read so far. False: found->why says why. */
 bool elaborate(FILE *from, FILE *to, unsigned long effort, void progress(uint64_t bytes),
                elaborated *found);
 
