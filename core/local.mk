@@ -44,7 +44,7 @@ core_surface = \
     core/surface/instance.c core/surface/instance.h \
     core/surface/instance_words.c \
     core/surface/region.c core/surface/region.h \
-    core/surface/slip.h core/surface/slip_center.c core/surface/slip_screw.c \
+    core/surface/slip.h core/surface/slip_screw.c \
     core/surface/surface_status.c \
     core/surface/surface.c core/surface/surface.h \
     core/surface/surface_distance.c \

@@ -36,6 +36,7 @@ check_suites = \
     tests/unit/test_distance_windows \
     tests/unit/test_slips \
     tests/unit/test_slip_pairs \
+    tests/unit/test_slip_planes \
     tests/unit/test_glances \
     tests/unit/test_screw_slips \
     tests/unit/test_half_planes \

@@ -45,32 +45,77 @@ void carried_turn(const imp_pose *pose, imp_model way[3])
     memcpy(way, turned, sizeof turned);
 }
 
+/* Turns a direction by R^T. */
+static void turn_back(const imp_pose *pose, imp_model way[3])
+{
+    imp_model along[3], turned[3];
+    take_along(pose, way, along);
+    for (int j = 0; j < 3; ++j) {
+        const imp_model column[3] = {pose->turn[0][j], pose->turn[1][j], pose->turn[2][j]};
+        turned[j] = imp_add(imp_dot3(column, way), along[j]);
+    }
+    memcpy(way, turned, sizeof turned);
+}
+
 /* Lemma. Let R be the turn of a map, R^T R = 1 + D with |D| <= d <= 1/2. Its polar decomposition is
  * U H with a rotation U, H = (1 + D)^(1/2) and |H - 1| <= d, since 1 - (1 - d)^(1/2) <= d. So
  *
  *   |R w - U w| = |(H - 1) w| <= d |w|,   |R^T w - U^T w| = |(H - 1) U^T w| <= d |w|,
  *
- * and the length of the point's previous error is unchanged under U. */
+ * and the length of the previous error, of a point or a direction, is unchanged under U. */
+static void add_off(double d, const imp_model way[3], double *off)
+{
+    if (d > 0) *off = sum_upper(*off, d * surface_size_upper(way));
+}
+
 void carried_push(const imp_pose *pose, double d, carried *x)
 {
-    imp_model way[3], along[3];
-    for (int i = 0; i < 3; ++i) way[i] = imp_shift(x->at[i], -pose->pivot[i]);
-    x->off = sum_upper(x->off, d * surface_size_upper(way));
-    take_along(pose, way, along);
-    for (int i = 0; i < 3; ++i)
-        x->at[i] = imp_add(imp_add(imp_dot3(pose->turn[i], way), along[i]), pose->shift[i]);
+    for (int i = 0; i < 3; ++i) x->at[i] = imp_shift(x->at[i], -pose->pivot[i]);
+    add_off(d, x->at, &x->off);
+    carried_turn(pose, x->at);
+    for (int i = 0; i < 3; ++i) x->at[i] = imp_add(x->at[i], pose->shift[i]);
 }
 
 void carried_pull(const imp_pose *pose, double d, carried *x)
 {
-    imp_model way[3], along[3];
-    for (int i = 0; i < 3; ++i) way[i] = imp_sub(x->at[i], pose->shift[i]);
-    x->off = sum_upper(x->off, d * surface_size_upper(way));
-    take_along(pose, way, along);
-    for (int j = 0; j < 3; ++j) {
-        const imp_model column[3] = {pose->turn[0][j], pose->turn[1][j], pose->turn[2][j]};
-        x->at[j] = imp_shift(imp_add(imp_dot3(column, way), along[j]), pose->pivot[j]);
-    }
+    for (int i = 0; i < 3; ++i) x->at[i] = imp_sub(x->at[i], pose->shift[i]);
+    add_off(d, x->at, &x->off);
+    turn_back(pose, x->at);
+    for (int j = 0; j < 3; ++j) x->at[j] = imp_shift(x->at[j], pose->pivot[j]);
+}
+
+/* Adds to the plane's height by how much that of the pose's shift, along the normal after the turn,
+ * exceeds that of its pivot, along the normal before it; or takes it away. Lemma. Let x' = shift +
+ * U (x - pivot) and n' = U n, U a rotation. n'.x' = n.x + n'.shift - n.pivot: no entry of U is in
+ * this but by n', whose models have no remainder where n is the direction that U leaves fixed. The
+ * normals are off by at most their `off`, and the height by that times the lengths. */
+static void lift(const imp_pose *pose, const carried *before, const carried *after, bool is_back,
+                 carried_plane *x)
+{
+    imp_model pivot[3];
+    for (int i = 0; i < 3; ++i) pivot[i] = imp_num(pose->pivot[i]);
+    const imp_model up = imp_sub(imp_dot3(after->at, pose->shift), imp_dot3(before->at, pivot));
+    x->height = is_back ? imp_sub(x->height, up) : imp_add(x->height, up);
+    if (before->off + after->off == 0) return;
+    const double shift = surface_size_upper(pose->shift), own = surface_size_upper(pivot);
+    x->off = sum_upper(x->off, padded_upper(after->off * shift + before->off * own, 8));
+}
+PAD_COVERS(8, 2); /* product, sum */
+
+void carried_push_plane(const imp_pose *pose, double d, carried_plane *x)
+{
+    const carried before = x->normal;
+    add_off(d, x->normal.at, &x->normal.off);
+    carried_turn(pose, x->normal.at);
+    lift(pose, &before, &x->normal, false, x);
+}
+
+void carried_pull_plane(const imp_pose *pose, double d, carried_plane *x)
+{
+    const carried after = x->normal;
+    add_off(d, x->normal.at, &x->normal.off);
+    turn_back(pose, x->normal.at);
+    lift(pose, &x->normal, &after, true, x);
 }
 
 /* Pulls back by R^-1 instead of R^T. Lemma. |R^-1 w| <= |w| / (1 - d)^(1/2) <= 2 |w|, and R^T w -

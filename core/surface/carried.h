@@ -20,6 +20,15 @@ typedef struct carried {
     double off;
 } carried;
 
+/* The plane of all x with normal.x = height, `off` being that of the height. The normal is a
+ * direction of any length. It follows maps as no point of the plane does: where rotations keep the
+ * normal and shifts go across it, its models have no remainders, whatever the normal. */
+typedef struct carried_plane {
+    carried normal;
+    imp_model height;
+    double off;
+} carried_plane;
+
 /* Asks the type. IMP_STATUS_UNBOUNDED: it has none. */
 imp_status surface_symmetry(const surface *s, imp_symmetry *found);
 
@@ -54,6 +63,10 @@ void carried_pull_truly(const imp_pose *pose, double d, carried *x);
 
 /* Turns a direction by the map of this pose, whose turn is an exact rotation. */
 void carried_turn(const imp_pose *pose, imp_model way[3]);
+
+/* Moves the plane by the map of this pose and d, or back by its transposed turn. */
+void carried_push_plane(const imp_pose *pose, double d, carried_plane *x);
+void carried_pull_plane(const imp_pose *pose, double d, carried_plane *x);
 
 /* Returns a bound of |w| from above. */
 double surface_size_upper(const imp_model w[3]);

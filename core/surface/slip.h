@@ -8,7 +8,7 @@
 
 /* How far a surface moves along another, but for motions of the other within itself
  * =================================================================================
- * For surface_slip.c, slip_center.c, slip_screw.c and surface_pair_slip.c. */
+ * For surface_slip.c, slip_screw.c and surface_pair_slip.c. */
 
 typedef struct slip_input {
     const surface *a, *b;
@@ -20,24 +20,18 @@ typedef struct slip_input {
     double enough;         /* a slip that is not refined; no greater one is known. 0: none */
 } slip_input;
 
-/* The symmetry's center, and the end of its axis if the axis matters, in a's coordinates before its
- * maps; and bounds for points of a. */
+/* What the symmetry leaves where it is, in a's coordinates before its maps; and bounds for points
+ * of a. */
 typedef struct slip_place {
-    carried feature[2];
-    double off; /* error of a's points in b's coordinates before its maps; length */
-    double far; /* >= distance of a's points from the center; length */
+    carried center;      /* unless the symmetry is across a line */
+    carried_plane plane; /* the axis is its normal, unless it is about a point; its height matters
+                            only across a line */
+    double off;          /* error of a's points in b's coordinates before its maps; length */
+    double far;          /* >= distance of a's points from the center, or of their middle; length */
 } slip_place;
-
-/* Computes the symmetry's center and axis at these times, in a's coordinates, without the bounds
- * for points. */
-imp_status slip_locate(const slip_input *q, const imp_region *times, slip_place *x);
 
 /* Computes *slip, given the symmetry; INFINITY if the motion leaves the symmetry. */
 imp_status slip_find(const slip_input *q, const imp_region *times, double *slip);
-
-/* Chooses the center of a symmetry across a line, which may be any point of the plane: the one that
- * moves least, since a fixed point has the tightest bound. */
-imp_status slip_choose_center(slip_input *q, const imp_region *times);
 
 /* slip_find for a screw. It goes on until *slip is at most `enough`, or gives up: INFINITY. */
 imp_status slip_find_screw(const slip_input *q, const imp_region *times, double enough,

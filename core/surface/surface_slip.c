@@ -22,41 +22,86 @@ static imp_status pose_of_b(const slip_input *q, size_t k, const imp_region *tim
     return carried_pose(q->b, k, k < q->b_still ? &q->then : times, pose, d);
 }
 
-imp_status slip_locate(const slip_input *q, const imp_region *times, slip_place *x)
+static bool is_across(const slip_input *q) { return q->found.kind == IMP_SYMMETRY_ACROSS_LINE; }
+
+static bool has_axis(const slip_input *q) { return q->found.kind != IMP_SYMMETRY_ABOUT_POINT; }
+
+/* Carries the symmetry by b's map k. Across a line, any point of the plane is as good: only the
+ * plane matters. */
+static void push_place(const slip_input *q, const imp_pose *pose, double d, slip_place *x)
 {
-    const int features = q->found.kind == IMP_SYMMETRY_ABOUT_POINT ? 1 : 2;
-    imp_model from[3];
+    if (!is_across(q)) carried_push(pose, d, &x->center);
+    if (has_axis(q)) carried_push_plane(pose, d, &x->plane);
+}
+
+static void pull_place(const slip_input *q, const imp_pose *pose, double d, slip_place *x)
+{
+    if (!is_across(q)) carried_pull(pose, d, &x->center);
+    if (has_axis(q)) carried_pull_plane(pose, d, &x->plane);
+}
+
+static void start_place(const slip_input *q, slip_place *x)
+{
+    imp_model axis[3], center[3];
+    for (int i = 0; i < 3; ++i) {
+        center[i] = imp_num(q->found.center[i]);
+        axis[i] = imp_num(q->found.axis[i]);
+    }
+    *x = (slip_place){.plane = {.height = imp_dot3(axis, center)}};
+    memcpy(x->center.at, center, sizeof center);
+    memcpy(x->plane.normal.at, axis, sizeof axis);
+}
+
+/* Replaces the plane's height by that above the middle of a's points, which is next to them, and
+ * bounds how far they are from there, or from the center. */
+static void view_from_a(const slip_input *q, slip_place *x)
+{
+    imp_model from[3], middle[3];
+    for (int i = 0; i < 3; ++i) {
+        middle[i] = imp_num(0.5 * q->bare[i].lo + 0.5 * q->bare[i].hi);
+        from[i] = imp_sub(imp_between(q->bare[i].lo, q->bare[i].hi),
+                          is_across(q) ? middle[i] : x->center.at[i]);
+    }
+    x->far = sum_upper(surface_size_upper(from), x->center.off);
+    if (!is_across(q)) return;
+    x->plane.height = imp_sub(x->plane.height, imp_dot3(x->plane.normal.at, middle));
+    const double tilt = x->plane.normal.off;
+    if (tilt > 0) x->plane.off = sum_upper(x->plane.off, tilt * surface_size_upper(middle));
+}
+
+static imp_status locate_symmetry(const slip_input *q, const imp_region *times, slip_place *x)
+{
     imp_pose pose;
     double d;
     imp_status status = IMP_STATUS_OK;
-    for (int i = 0; i < 3; ++i) {
-        x->feature[0].at[i] = imp_num(q->found.center[i]);
-        x->feature[1].at[i] = imp_add(imp_num(q->found.center[i]), imp_num(q->found.axis[i]));
-    }
-    x->feature[0].off = x->feature[1].off = x->off = 0;
+    start_place(q, x);
     for (size_t k = 0; k < q->b_maps && status == IMP_STATUS_OK; ++k) {
         status = pose_of_b(q, k, times, &pose, &d);
-        for (int f = 0; f < features && status == IMP_STATUS_OK; ++f)
-            carried_push(&pose, d, &x->feature[f]);
+        if (status == IMP_STATUS_OK) push_place(q, &pose, d, x);
     }
     for (size_t k = q->a_maps; k-- > 0 && status == IMP_STATUS_OK;) {
         status = pose_of_a(q, k, times, &pose, &d);
-        for (int f = 0; f < features && status == IMP_STATUS_OK; ++f)
-            carried_pull(&pose, d, &x->feature[f]);
+        if (status == IMP_STATUS_OK) pull_place(q, &pose, d, x);
     }
-    if (status != IMP_STATUS_OK) return status;
-    for (int i = 0; i < 3; ++i)
-        from[i] = imp_sub(imp_between(q->bare[i].lo, q->bare[i].hi), x->feature[0].at[i]);
-    x->far = sum_upper(surface_size_upper(from), x->feature[0].off);
-    return IMP_STATUS_OK;
+    if (status == IMP_STATUS_OK) view_from_a(q, x);
+    return status;
 }
 
+static bool turn_exactly(const surface *s, size_t maps)
+{
+    bool all = true;
+    for (size_t k = 0; k < maps; ++k) all = all && map_turns_exactly(&s->maps[k]);
+    return all;
+}
+
+/* Adds the error of a's points, which exact rotations have not. */
 static imp_status locate(const slip_input *q, const imp_region *times, slip_place *x)
 {
     carried y = {.off = 0};
     imp_pose pose;
     double d;
-    imp_status status = slip_locate(q, times, x);
+    imp_status status = locate_symmetry(q, times, x);
+    if (turn_exactly(q->a, q->a_maps) && turn_exactly(q->b, q->b_maps)) return status;
     for (int i = 0; i < 3; ++i) y.at[i] = imp_between(q->bare[i].lo, q->bare[i].hi);
     for (size_t k = 0; k < q->a_maps && status == IMP_STATUS_OK; ++k) {
         status = pose_of_a(q, k, times, &pose, &d);
@@ -88,42 +133,44 @@ static double length_lower(const double x[3])
  *
  * F turns n(t0) by the smallest angle, which moves a point at distance r from c(t) by at most r
  * |n(t) - n(t0)|, and shifts by the part of v = c(t) - c(t0) that the symmetry does not permit: all
- * of it; if it permits shifts along the line, |v x n|; if it permits shifts across, |v . n|; here n
- * = n(t0), and for n(t) instead |v| |n(t) - n(t0)| is added. The shift that F may add is at most
- * |v| long, which is added to r.
+ * of it; if it permits shifts along the line, |v x n|; here n = n(t0), and for n(t) instead |v|
+ * |n(t) - n(t0)| is added. The shift that F may add is at most |v| long, which is added to r.
  *
- * Since maps are not exact, points and features have the errors of `carried`, at both times.
+ * If the symmetry permits shifts across the line, F need only take the plane n(t0).x = h(t0) to
+ * n(t).x = h(t). It turns about the middle m of a's points, which takes the plane to n(t).x = h(t0)
+ * - n(t0).m + n(t).m, and shifts along n(t) by what the height above m has changed, which is added
+ * to r.
+ *
+ * Since maps are not exact, points, axes and heights have the errors of `carried`, at both times.
  * Rounding of the sum: terms have at most 4 roundings (quotient, product, sums), and all are
  * positive. */
 PAD_COVERS(16, 4 + 6);
 static double slip_upper(const imp_symmetry *of, const slip_place *now, const slip_place *then)
 {
-    imp_model v[3], w[3], axis[3];
-    for (int i = 0; i < 3; ++i) v[i] = imp_sub(now->feature[0].at[i], then->feature[0].at[i]);
-    const double off = now->feature[0].off + then->feature[0].off,
-                 all = surface_size_upper(v) + off;
+    imp_model v[3], w[3];
+    const imp_model *n = then->plane.normal.at;
+    for (int i = 0; i < 3; ++i) v[i] = imp_sub(now->center.at[i], then->center.at[i]);
+    const double off = now->center.off + then->center.off, all = surface_size_upper(v) + off;
     const double points = now->off + then->off;
     if (of->kind == IMP_SYMMETRY_ABOUT_POINT) return padded_upper(all + points, 16);
-    for (int i = 0; i < 3; ++i) {
-        w[i] = imp_sub(imp_sub(now->feature[1].at[i], then->feature[1].at[i]), v[i]);
-        axis[i] = imp_sub(then->feature[1].at[i], then->feature[0].at[i]);
-    }
+    for (int i = 0; i < 3; ++i) w[i] = imp_sub(now->plane.normal.at[i], n[i]);
     const double length = length_lower(of->axis);
-    const double tips = off + now->feature[1].off + then->feature[1].off;
+    const double tips = now->plane.normal.off + then->plane.normal.off;
     const double turn = (surface_size_upper(w) + tips) / length;
-    double shift = all;
+    double shift = all, added = all;
     if (of->kind == IMP_SYMMETRY_ALONG_LINE) {
         imp_model across[3];
         for (int i = 0; i < 3; ++i) {
             const int j = (i + 1) % 3, k = (i + 2) % 3;
-            across[i] = imp_sub(imp_mul(v[j], axis[k]), imp_mul(v[k], axis[j]));
+            across[i] = imp_sub(imp_mul(v[j], n[k]), imp_mul(v[k], n[j]));
         }
         shift = (surface_size_upper(across) + all * tips) / length + off + all * turn;
     } else if (of->kind == IMP_SYMMETRY_ACROSS_LINE) {
-        const imp_model along[3] = {imp_dot3(v, axis), imp_num(0), imp_num(0)};
-        shift = (surface_size_upper(along) + all * tips) / length + off + all * turn;
+        const imp_model rise = imp_sub(now->plane.height, then->plane.height);
+        const double most = imp_interval_mag(imp_model_range(&rise));
+        shift = added = (most + now->plane.off + then->plane.off) / length;
     }
-    return padded_upper(shift + turn * (now->far + all) + points, 16);
+    return padded_upper(shift + turn * (now->far + added) + points, 16);
 }
 
 /* --- Over all times --------------------------------------------------------------------------- */
@@ -162,12 +209,12 @@ static imp_status give_up(const slip_input *q, const imp_region *still, const im
                           bool *given_up)
 {
     slip_place then;
-    imp_status status = slip_locate(q, still, &then);
+    imp_status status = locate_symmetry(q, still, &then);
     const double ends[2] = {times->lo[2], times->hi[2]};
     for (int k = 0; k < 2 && status == IMP_STATUS_OK && !*given_up; ++k) {
         const imp_region end = slip_at_times(times, ends[k], ends[k]);
         slip_place now;
-        status = slip_locate(q, &end, &now);
+        status = locate_symmetry(q, &end, &now);
         *given_up =
             status == IMP_STATUS_OK && !(slip_upper(&q->found, &now, &then) <= GIVEN_UP * then.far);
     }
@@ -209,8 +256,6 @@ imp_status surface_slip(const surface *a, const surface *b, const imp_model bare
     *slip = INFINITY;
     if (!slip_moves_rigidly(a) || q.a_maps + q.b_maps == 0) return IMP_STATUS_OK;
     imp_status status = surface_symmetry(b, &q.found);
-    if (status == IMP_STATUS_OK && q.found.kind == IMP_SYMMETRY_ACROSS_LINE)
-        status = slip_choose_center(&q, times);
     if (status == IMP_STATUS_OK && symmetry_is_screw(&q.found))
         return enough > 0 ? slip_find_screw(&q, times, enough, slip) : IMP_STATUS_OK;
     if (status == IMP_STATUS_OK && symmetry_is_sane(&q.found)) return slip_find(&q, times, slip);
@@ -233,7 +278,5 @@ imp_status surface_slip_along(const surface *a, const surface *b, const surface_
     memcpy(q.found.axis, plane->axis, sizeof q.found.axis);
     *slip = INFINITY;
     if (!slip_moves_rigidly(a) || !slip_moves_rigidly(b)) return IMP_STATUS_OK;
-    const imp_status status = slip_choose_center(&q, times);
-    if (status == IMP_STATUS_OK && symmetry_is_sane(&q.found)) return slip_find(&q, times, slip);
-    return status == IMP_STATUS_OK || status == IMP_STATUS_UNBOUNDED ? IMP_STATUS_OK : status;
+    return symmetry_is_sane(&q.found) ? slip_find(&q, times, slip) : IMP_STATUS_OK;
 }
