@@ -206,7 +206,8 @@ core_broad_phase = \
     core/broad_phase/collect_surfaces.c \
     core/broad_phase/collection.h \
     core/broad_phase/examined_times.c core/broad_phase/examined_times.h \
-    core/broad_phase/parallel.c core/broad_phase/parallel.h
+    core/broad_phase/parallel.c core/broad_phase/parallel.h \
+    core/broad_phase/strips.c core/broad_phase/strips.h
 
 core_proof = \
     core/proof/proof_copy.c \

@@ -79,6 +79,15 @@ int broad_phase_sort(swept_box *boxes, size_t count)
     return axis;
 }
 
+bool broad_phase_visit_two(const swept_box *box, const swept_box *later, int axis,
+                           double gamma_clear, bool *is_beyond, const broad_phase_visitor *visitor)
+{
+    *is_beyond = apart(later->lo[axis], box->hi[axis], gamma_clear);
+    if (*is_beyond || later->group == box->group || boxes_apart(box, later, gamma_clear))
+        return true;
+    return visitor->visit(visitor->context, box->owner, later->owner);
+}
+
 /* Lemma. No two boxes of different groups within gamma_clear are left out. A box with a NaN along
  * the axis starts before all others and ends after them, so that the order is total. A box after
  * another in the order starts no earlier: once one is apart from box k along the axis, so are all
@@ -92,10 +101,10 @@ bool broad_phase_visit_box(const swept_box *boxes, size_t count, int axis, size_
             l = boxes[l].beyond;
             continue;
         }
-        if (apart(boxes[l].lo[axis], boxes[k].hi[axis], gamma_clear)) break;
-        if (!boxes_apart(&boxes[k], &boxes[l], gamma_clear) &&
-            !visitor->visit(visitor->context, boxes[k].owner, boxes[l].owner))
+        bool is_beyond;
+        if (!broad_phase_visit_two(&boxes[k], &boxes[l], axis, gamma_clear, &is_beyond, visitor))
             return false;
+        if (is_beyond) break;
         ++l;
     }
     return true;

@@ -38,6 +38,11 @@ int broad_phase_sort(swept_box *boxes, size_t count);
 bool broad_phase_visit_box(const swept_box *boxes, size_t count, int axis, size_t k,
                            double gamma_clear, const broad_phase_visitor *visitor);
 
+/* Visits two of the sorted boxes, if they are of different groups and near each other; `later`
+ * comes after `box`. *is_beyond: so far after it along the axis that no later box is near it. */
+bool broad_phase_visit_two(const swept_box *box, const swept_box *later, int axis,
+                           double gamma_clear, bool *is_beyond, const broad_phase_visitor *visitor);
+
 /* Returns an upper bound of the least distance of two points in two boxes of different groups that
  * `visit` accepts. INFINITY: there are none, or `next_box` ended it. The boxes are sorted along
  * `axis`. */

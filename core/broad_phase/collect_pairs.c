@@ -43,6 +43,13 @@ static bool add_pair(void *context, size_t first, size_t second)
     return !make_pair(all, first, second, &p) || keep_pair(all, &p);
 }
 
+/* Visits the pairs of box k with the sorted boxes after it. */
+static bool visit_box(const collection *all, size_t k, const broad_phase_visitor *visitor)
+{
+    return strips_visit_box(&all->strips, all->boxes, all->list->count, all->axis, k,
+                            all->gamma_clear, visitor);
+}
+
 /* --- Pairs found ahead ------------------------------------------------------------------------ */
 
 typedef struct sweep_task {
@@ -72,8 +79,7 @@ static void sweep_boxes(void *of, size_t index)
     for (size_t k = first; k < count && k < first + BOXES_A_TASK; ++k) {
         const size_t before = task.to->count;
         if (collection_may_end(all, sizeof(candidate_pair))) return;
-        if (!broad_phase_visit_box(all->boxes, count, all->axis, k, all->gamma_clear, &visitor))
-            return;
+        if (!visit_box(all, k, &visitor)) return;
         atomic_fetch_add(&all->bytes_ahead, (task.to->count - before) * sizeof(candidate_pair));
     }
     task.to->complete = true;
@@ -89,8 +95,7 @@ static bool take_boxes(collection *all, const sweep_ahead *found, size_t first)
     for (size_t k = 0; go_on && found->complete && k < found->count; ++k)
         go_on = keep_pair(all, &found->pairs[k]);
     for (size_t k = first; go_on && !found->complete && k < count && k < first + BOXES_A_TASK; ++k)
-        go_on = !collection_must_end(all) &&
-                broad_phase_visit_box(all->boxes, count, all->axis, k, all->gamma_clear, &visitor);
+        go_on = !collection_must_end(all) && visit_box(all, k, &visitor);
     return go_on;
 }
 
@@ -111,7 +116,6 @@ static bool sweep_by_threads(collection *all)
 {
     const size_t count = all->list->count, round = TASKS_A_ROUND * BOXES_A_TASK;
     bool go_on = true;
-    all->axis = broad_phase_sort(all->boxes, count);
     for (all->first_box = 0; go_on && all->first_box < count; all->first_box += round) {
         const size_t rest = count - all->first_box, boxes = rest < round ? rest : round;
         atomic_store(&all->bytes_ahead, 0);
@@ -130,12 +134,33 @@ static bool go_on(void *context)
     return !collection_must_end(all);
 }
 
+static bool sweep_alone(collection *all)
+{
+    const broad_phase_visitor visitor = {go_on, add_pair, all};
+    for (size_t k = 0; k < all->list->count; ++k)
+        if (!go_on(all) || !visit_box(all, k, &visitor)) return false;
+    return true;
+}
+
+static bool sweep(collection *all)
+{
+    const size_t count = all->list->count;
+    all->axis = broad_phase_sort(all->boxes, count);
+    all->out_of_memory = !strips_make(&all->strips, all->boxes, count, all->axis, all->gamma_clear,
+                                      all->list->store);
+    const bool done =
+        !all->out_of_memory && (all->sweep != NULL ? sweep_by_threads(all) : sweep_alone(all));
+    strips_clear(&all->strips);
+    return done;
+}
+
 bool collection_add_pairs(collection *all)
 {
     const broad_phase_visitor visitor = {go_on, add_pair, all};
-    const bool done = all->sweep != NULL ? sweep_by_threads(all)
-                                         : broad_phase_visit(all->boxes, all->list->count,
-                                                             all->gamma_clear, &visitor);
+    const size_t count = all->list->count;
+    const bool is_small = count < STRIPS_BOXES_LEAST && all->sweep == NULL;
+    const bool done =
+        is_small ? broad_phase_visit(all->boxes, count, all->gamma_clear, &visitor) : sweep(all);
     return done && !collection_must_end(all); /* counts the bytes of the last pairs */
 }
 

@@ -8,6 +8,7 @@
 #include "core/broad_phase/broad_phase.h"
 #include "core/broad_phase/candidates.h"
 #include "core/broad_phase/parallel.h"
+#include "core/broad_phase/strips.h"
 
 /* Declarations shared by the files that make the list of candidates: candidates.c begins and sorts
  * it; candidates_part.c copies some of it; collect_surfaces.c, collect_pairs.c and collect_roots.c
@@ -75,7 +76,8 @@ typedef struct collection {
     size_t used, ahead;
     sweep_ahead *sweep; /* TASKS_A_ROUND of them; NULL: no threads */
     size_t first_box;
-    int axis;
+    int axis; /* along which the boxes are sorted */
+    strips strips;
     atomic_uint_least64_t bytes_ahead;
 } collection;
 

@@ -8,7 +8,8 @@
 /* Another instance in a scene that is built
  * =========================================
  * Surfaces that an instance is part of are composed anew, and their trees are dropped; all others
- * stay. What the scene tells of itself is then what it would tell had it been built so. */
+ * stay. What the scene tells of itself is then what it would tell had it been built so, but for the
+ * bytes of the instances that it keeps to be refilled. */
 
 /* Where an instance stands: of a surface (map SIZE_MAX), of a surface's own maps, or of a body's
  * maps (surface SIZE_MAX). */

@@ -8,7 +8,8 @@
 
 /* Instances that a changed scene is rid of, for the next change of the same type: it refills one
  * (capability `renew`) in the place of destroying one and creating another. The scene's own is
- * exchanged only when that has succeeded, so a failure leaves the scene as it was. */
+ * exchanged only when that has succeeded, so a failure leaves the scene as it was. Their bytes are
+ * those of the scene meanwhile. */
 
 /* Larger instances are destroyed: their create costs more than the memory that a spare one holds,
  * but a scene would hold it twice. Bytes. */
@@ -24,6 +25,7 @@ static bool is_of(const shared_instance *p, const imp_surface_type *type, const 
 static shared_instance *take_out(imp_scene *scene, size_t k)
 {
     shared_instance *taken = scene->spare[k];
+    scene->bytes -= instance_bytes(taken);
     for (; k + 1 < scene->spare_count; ++k) scene->spare[k] = scene->spare[k + 1];
     --scene->spare_count;
     return taken;
@@ -52,6 +54,7 @@ void scene_give_spare(imp_scene *scene, shared_instance *p)
     instance_clear_shelf(p);
     if (scene->spare_count == SCENE_SPARES) instance_release(take_out(scene, 0));
     scene->spare[scene->spare_count++] = p;
+    scene->bytes += instance_bytes(p);
 }
 
 void scene_free_spares(imp_scene *scene)

@@ -17,10 +17,19 @@ static bool place_before(const pair_place *p, const pair_place *q)
 /* Most searches have few pairs waiting: their first block is one that malloc has ready. */
 enum { CAPACITY_LEAST = 5 };
 
+/* Beyond this many pairs room grows by a quarter, for which the heap of the process mostly moves
+ * pages, not bytes; below it, room doubles. */
+enum { CAPACITY_LARGE = 1 << 14 };
+
+static size_t capacity_for(size_t count)
+{
+    return count < CAPACITY_LARGE ? 2 * count + CAPACITY_LEAST : count + count / 4;
+}
+
 bool pair_heap_reserve(pair_heap *heap, size_t more)
 {
     if (more <= heap->capacity - heap->count) return true;
-    const size_t capacity = 2 * (heap->count + more) + CAPACITY_LEAST;
+    const size_t capacity = capacity_for(heap->count + more);
     const size_t used = heap->capacity * PAIR_HEAP_BYTES;
     pair *slots = arena_store_regrow(heap->store, heap->slots, used, capacity * PAIR_HEAP_BYTES);
     if (slots == NULL) return false;

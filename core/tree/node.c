@@ -14,7 +14,7 @@
 /* --- Memory ----------------------------------------------------------------------------------- */
 
 /* Halves are mostly made in pairs. */
-static const arena_growth node_growth = {2 * sizeof(node), 2 * sizeof(node), 50, 64 * sizeof(node)};
+static const arena_growth node_growth = {2 * sizeof(node), sizeof(node), 25, 64 * sizeof(node)};
 
 /* Reserves memory for a node, which is then published or given back. NULL: no memory. */
 static node *node_reserve(tree *t, tree_growth *growth)

@@ -20,17 +20,15 @@ void pose_take(pose_lanes *p, const imp_pose *given, double norm)
         for (int j = 0; j < 3; ++j) {
             const imp_model *r = &given->turn[i][j];
             const double entry[3] = {r->a, r->b[2], r->q[IMP_TT]};
-            for (int k = 0; k < 3; ++k) p->turn[k][j][i] = p->row[k][i][j] = entry[k];
+            for (int k = 0; k < 3; ++k) p->turn[k][j][i] = entry[k];
             p->turn_error[j][i] = r->e;
             p->turn_most[j][i] = larger(fabs(r->lo), fabs(r->hi));
-            p->turn_size[j][i] = fabs(entry[0]) + fabs(entry[1]) + fabs(entry[2]);
             p->turn_rate[j][i] = r->rate[2];
         }
         for (int k = 0; k < 3; ++k) p->shift[k][i] = shift[k];
         p->shift_error[i] = t->e;
         p->shift_lo[i] = t->lo;
         p->shift_hi[i] = t->hi;
-        p->shift_size[i] = fabs(shift[0]) + fabs(shift[1]) + fabs(shift[2]);
         p->shift_rate[i] = t->rate[2];
         p->pivot[i] = given->pivot[i];
     }
@@ -72,6 +70,27 @@ static double turned_upper(double norm, const double x[4])
     PAD_COVERS(8, 2 + 1 + 1);
     const double length = sqrt(x[0] * x[0] + x[1] * x[1] + x[2] * x[2]);
     return padded_upper(norm * length, 8) + ROOT_UNDERFLOW;
+}
+
+/* Sums of the |coefficients| of a pose, off by 2 roundings. */
+typedef struct pose_sizes {
+    double turn[3][4]; /* by column and row; 1 */
+    double shift[4];   /* length */
+} pose_sizes;
+
+IMP_QUAD_INLINE imp_quad size_of(const double *at, const double *by, const double *by_square)
+{
+    return imp_quad_abs(imp_quad_load(at)) + imp_quad_abs(imp_quad_load(by)) +
+           imp_quad_abs(imp_quad_load(by_square));
+}
+
+IMP_QUAD_INLINE pose_sizes sizes_of(const pose_lanes *p)
+{
+    pose_sizes sizes;
+    for (int j = 0; j < 3; ++j)
+        imp_quad_store(sizes.turn[j], size_of(p->turn[0][j], p->turn[1][j], p->turn[2][j]));
+    imp_quad_store(sizes.shift, size_of(p->shift[0], p->shift[1], p->shift[2]));
+    return sizes;
 }
 
 /* A shape relative to the pivot: z = y - p. */
@@ -161,7 +180,7 @@ _Static_assert(1 + 1 + 1 + 2 + 1 <= TURNED && 4 * 6 + 6 + 4 * 3 <= 4 * OTHERS,
                "rounding of a pose");
 
 IMP_QUAD_INLINE imp_quad rounding(const shape_model *s, const relative_shape *z,
-                                  const pose_lanes *p)
+                                  const pose_sizes *of)
 {
     double size[4];
     const imp_quad others =
@@ -171,7 +190,7 @@ IMP_QUAD_INLINE imp_quad rounding(const shape_model *s, const relative_shape *z,
     imp_quad_store(size, imp_quad_all(TURNED) * imp_quad_abs(imp_quad_load(z->a)) +
                              imp_quad_all(OTHERS) * others);
     return imp_quad_all(UNIT_ROUNDOFF) *
-           (pose_times(p->turn_size, size) + imp_quad_all(MOVED) * imp_quad_load(p->shift_size));
+           (pose_times(of->turn, size) + imp_quad_all(MOVED) * imp_quad_load(of->shift));
 }
 
 /* Lemma (remainder). |R delta| is at most |R| e, coordinate by coordinate, and norm |e| as a whole;
@@ -182,12 +201,13 @@ IMP_QUAD_INLINE imp_quad rounding(const shape_model *s, const relative_shape *z,
 PAD_COVERS(32, 7 + 1 + 2 + 3 + 2 + 5);
 
 /* Bounds the remainder without the terms of third order and R delta. */
-IMP_QUAD_INLINE imp_quad rest(const shape_model *s, const relative_shape *z, const pose_lanes *p)
+IMP_QUAD_INLINE imp_quad rest(const shape_model *s, const relative_shape *z, const pose_lanes *p,
+                              const pose_sizes *sizes)
 {
     double far[4];
     imp_quad_store(far, imp_quad_load(z->most) + imp_quad_load(s->e));
     return folded_fourth(s, p) + pose_times(p->turn_error, far) + imp_quad_load(p->shift_error) +
-           rounding(s, z, p);
+           rounding(s, z, sizes);
 }
 
 IMP_QUAD_INLINE imp_quad remainder_upper(const shape_model *s, const pose_lanes *p, imp_quad rest)
@@ -200,9 +220,10 @@ IMP_QUAD_INLINE imp_quad remainder_upper(const shape_model *s, const pose_lanes 
 /* Bounds posed_e: the rest, plus what the edges leave out, and their rounding. */
 PAD_COVERS(32, 7 + 1 + 2 + 3 + 2 + 5 + 2);
 
-IMP_QUAD_INLINE imp_quad posed_rest_upper(const shape_model *s, const pose_lanes *p, imp_quad rest)
+IMP_QUAD_INLINE imp_quad posed_rest_upper(const shape_model *s, const pose_sizes *sizes,
+                                          imp_quad rest)
 {
-    const imp_quad edges = pose_times(p->turn_size, s->e);
+    const imp_quad edges = pose_times(sizes->turn, s->e);
     const imp_quad all = rest + imp_quad_all(EDGE_ROUNDING * UNIT_ROUNDOFF) * edges;
     return quad_padded_upper(all, 32) + POSE_UNDERFLOW;
 }
@@ -244,7 +265,8 @@ IMP_QUAD_INLINE range_lanes range_of_polynomial(const model_lanes *m)
  * where T + R (m - p) is a quadratic in s within E |m - p| + F. Roundings of it: m - p 1, product
  * 1, sums 2, T 1, bow 1, and three more: 9 < 16 - 2 of |R| |m - p| + |T|. */
 PAD_COVERS(16, 9);
-IMP_QUAD_INLINE range_lanes range_of_box(const shape_model *s, const pose_lanes *p)
+IMP_QUAD_INLINE range_lanes range_of_box(const shape_model *s, const pose_lanes *p,
+                                         const pose_sizes *sizes)
 {
     double z[4], size[4], w[4];
     const imp_quad lo = imp_quad_load(s->lo), hi = imp_quad_load(s->hi), half = imp_quad_all(0.5);
@@ -256,7 +278,7 @@ IMP_QUAD_INLINE range_lanes range_of_box(const shape_model *s, const pose_lanes 
     const range_lanes c = bow(pose_times(p->turn[1], z) + imp_quad_load(p->shift[1]),
                               pose_times(p->turn[2], z) + imp_quad_load(p->shift[2]));
     const imp_quad slip = imp_quad_all(16 * UNIT_ROUNDOFF) *
-                          (pose_times(p->turn_size, size) + imp_quad_load(p->shift_size));
+                          (pose_times(sizes->turn, size) + imp_quad_load(sizes->shift));
     const imp_quad reach =
         quad_padded_upper(pose_times(p->turn_most, w) + pose_times(p->turn_error, size) +
                               imp_quad_load(p->shift_error) + slip,
@@ -276,9 +298,9 @@ IMP_QUAD_INLINE range_lanes range_of_ball(const relative_shape *z, const pose_la
 }
 
 IMP_QUAD_INLINE void take_range(const shape_model *s, const relative_shape *z, const pose_lanes *p,
-                                model_lanes *m)
+                                const pose_sizes *sizes, model_lanes *m)
 {
-    const range_lanes x = range_of_polynomial(m), y = range_of_box(s, p),
+    const range_lanes x = range_of_polynomial(m), y = range_of_box(s, p, sizes),
                       ball = range_of_ball(z, p);
     m->lo = imp_quad_max(imp_quad_max(x.lo, y.lo), ball.lo);
     m->hi = imp_quad_min(imp_quad_min(x.hi, y.hi), ball.hi);
@@ -290,16 +312,17 @@ IMP_QUAD_INLINE bool take(node *n, const shape_model *s, const pose_lanes *p)
 {
     model_lanes m;
     const relative_shape z = shape_about(s, p->pivot);
+    const pose_sizes sizes = sizes_of(p);
     take_coefficients(s, &z, p, &m);
-    const imp_quad left = rest(s, &z, p);
+    const imp_quad left = rest(s, &z, p, &sizes);
     m.e = remainder_upper(s, p, left);
-    take_range(s, &z, p, &m);
+    take_range(s, &z, p, &sizes, &m);
     m.rate[0] = pose_times(p->turn_most, s->rate_u);
     m.rate[1] = pose_times(p->turn_most, s->rate_v);
     m.rate[2] = pose_times(p->turn_rate, z.most) + imp_quad_load(p->shift_rate);
     if (!lanes_are_bounded(&m) || !lanes_are_sound(&m)) return false;
     lanes_take(n, &m);
-    imp_quad_store(n->posed_e, posed_rest_upper(s, p, left));
+    imp_quad_store(n->posed_e, posed_rest_upper(s, &sizes, left));
     n->still = s;
     n->pose = p;
     return true;

@@ -21,16 +21,14 @@ typedef struct shape_model {
 
 typedef struct pose_lanes {
     double turn[3][3][4];    /* the matrix; coefficient of 1, s, s^2; column; row */
-    double row[3][3][4];     /* the transposed matrix; coefficient; row; column */
     double shift[3][4];      /* coefficients of 1, s, s^2; length */
     double turn_error[3][4]; /* remainders, by column and row; */
     double turn_most[3][4];  /* >= |entry|; */
-    double turn_size[3][4];  /* >= sum of its |coefficients|, up to 2 roundings; */
     double turn_rate[3][4];  /* 1 / time */
     double shift_error[4], shift_lo[4], shift_hi[4];
-    double shift_size[4], shift_rate[4]; /* length, length / time */
-    double pivot[4];                     /* length */
-    double norm;                         /* >= |turn x| / |x| */
+    double shift_rate[4]; /* length / time */
+    double pivot[4];      /* length */
+    double norm;          /* >= |turn x| / |x| */
 } pose_lanes;
 
 /* Fills p from a pose of the surface and its norm (surface_pose_norm_upper). */

@@ -63,7 +63,7 @@ IMP_QUAD_INLINE posed_terms posed_terms_at(const node *n, double s0, double k)
 {
     const shape_model *s = n->still;
     const pose_lanes *p = n->pose;
-    const imp_quad at = imp_quad_all(s0), by = imp_quad_all(k), e = imp_quad_load(s->e);
+    const imp_quad at = imp_quad_all(s0), by = imp_quad_all(k);
     posed_terms x;
     x.uut = pose_times(p->turn[1], s->quu);
     x.uvt = pose_times(p->turn[1], s->quv);
@@ -73,12 +73,18 @@ IMP_QUAD_INLINE posed_terms posed_terms_at(const node *n, double s0, double k)
     x.bow = imp_quad_all(0);
     for (int j = 0; j < 3; ++j)
         x.bow += imp_quad_abs(imp_quad_load(p->turn[2][j])) * imp_quad_all(k * k * s->e[j]);
-    for (int i = 0; i < 3; ++i) {
-        const imp_quad bend = imp_quad_load(p->row[2][i]) * at;
-        const imp_quad slope = imp_quad_load(p->row[1][i]) + bend;
-        x.edge[i] = (imp_quad_load(p->row[0][i]) + slope * at) * e;
-        x.swing[i] = (slope + bend) * by * e;
+    imp_quad edge[4], swing[4]; /* columns of x, y, z, then rows */
+    edge[3] = swing[3] = imp_quad_all(0);
+    for (int j = 0; j < 3; ++j) {
+        const imp_quad e = imp_quad_all(s->e[j]);
+        const imp_quad bend = imp_quad_load(p->turn[2][j]) * at;
+        const imp_quad slope = imp_quad_load(p->turn[1][j]) + bend;
+        edge[j] = (imp_quad_load(p->turn[0][j]) + slope * at) * e;
+        swing[j] = (slope + bend) * by * e;
     }
+    imp_quad_transpose(edge);
+    imp_quad_transpose(swing);
+    for (int i = 0; i < 3; ++i) x.edge[i] = edge[i], x.swing[i] = swing[i];
     return x;
 }
 

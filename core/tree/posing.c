@@ -26,7 +26,7 @@ typedef struct span {
 
 /* The first block holds what the root's first halves begin with: most trees of large scenes are
  * small. */
-static const arena_growth posing_growth = {sizeof(span) + sizeof(shape), sizeof(double), 50, 8192};
+static const arena_growth posing_growth = {sizeof(span) + sizeof(shape), sizeof(double), 25, 8192};
 
 /* --- Shapes ----------------------------------------------------------------------------------- */
 

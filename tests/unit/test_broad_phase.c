@@ -5,15 +5,15 @@
 #include <math.h>
 #include <string.h>
 
-#include "core/broad_phase/broad_phase.h"
+#include "core/broad_phase/strips.h"
 #include "tests/support/suite.h"
 
 /* The sweep visits each pair of boxes of different groups that are near each other, whichever axis
  * it runs along, once. */
 
-enum { BOXES = 60 };
+enum { BOXES = 60, MANY = STRIPS_BOXES_LEAST + 60 };
 
-static unsigned char visits[BOXES][BOXES];
+static unsigned char visits[MANY][MANY];
 
 static bool go_on(void *context)
 {
@@ -38,10 +38,10 @@ static bool apart(const swept_box *a, const swept_box *b, double gamma_clear)
 
 /* Boxes of sides up to 0.2 in a room of that width along `crowded`, and of 5 else; some without
  * bounds. */
-static void draw(swept_box *boxes, int crowded, uint64_t groups, uint64_t *state)
+static void draw(swept_box *boxes, size_t count, int crowded, uint64_t groups, uint64_t *state)
 {
     const double odd[] = {NAN, INFINITY, -INFINITY, 0};
-    for (size_t k = 0; k < BOXES; ++k) {
+    for (size_t k = 0; k < count; ++k) {
         boxes[k].owner = k;
         boxes[k].group = random_bits(state) % groups;
         for (int i = 0; i < 3; ++i) {
@@ -56,6 +56,16 @@ static void draw(swept_box *boxes, int crowded, uint64_t groups, uint64_t *state
     }
 }
 
+static void check_visits(const swept_box *given, size_t count, double gamma_clear)
+{
+    for (size_t a = 0; a < count; ++a)
+        for (size_t b = a + 1; b < count; ++b) {
+            const bool alike = given[a].group == given[b].group;
+            ck_assert_uint_le(visits[a][b], alike ? 0 : 1);
+            ck_assert(alike || visits[a][b] == 1 || apart(&given[a], &given[b], gamma_clear));
+        }
+}
+
 START_TEST(each_two_near_boxes_are_visited_once_along_any_axis)
 {
     uint64_t state = suite_seed();
@@ -64,16 +74,46 @@ START_TEST(each_two_near_boxes_are_visited_once_along_any_axis)
     for (int round = 0; round < suite_times(300); ++round) {
         swept_box boxes[BOXES], given[BOXES];
         const double gamma_clear = round % 2 == 0 ? 1e-6 : 0.1;
-        draw(boxes, round % 3, groups[round % 4], &state);
+        draw(boxes, BOXES, round % 3, groups[round % 4], &state);
         memcpy(given, boxes, sizeof boxes);
         memset(visits, 0, sizeof visits);
         ck_assert(broad_phase_visit(boxes, BOXES, gamma_clear, &visitor));
-        for (size_t a = 0; a < BOXES; ++a)
-            for (size_t b = a + 1; b < BOXES; ++b) {
-                const bool alike = given[a].group == given[b].group;
-                ck_assert_uint_le(visits[a][b], alike ? 0 : 1);
-                ck_assert(alike || visits[a][b] == 1 || apart(&given[a], &given[b], gamma_clear));
-            }
+        check_visits(given, BOXES, gamma_clear);
+    }
+}
+END_TEST
+
+/* Returns how many boxes lie in several strips. */
+static size_t count_divided(const strips *s, size_t count)
+{
+    size_t divided = 0;
+    for (size_t k = 0; k < count; ++k) divided += s->length[k] > 1;
+    return divided;
+}
+
+/* Rooms of width 5 hold some 30 strips. Where the boxes lie on each other along one axis, the
+ * sweep and its strips take the other two. */
+START_TEST(strips_leave_out_no_near_boxes)
+{
+    uint64_t state = suite_seed();
+    const broad_phase_visitor visitor = {NULL, note, NULL};
+    const uint64_t groups[4] = {1, 2, 40, 1 << 30};
+    for (int round = 0; round < suite_times(60); ++round) {
+        static swept_box boxes[MANY], given[MANY];
+        const double gamma_clear = round % 2 == 0 ? 1e-6 : 0.1;
+        strips s;
+        draw(boxes, MANY, round % 4, groups[round % 4], &state);
+        for (size_t k = 0; k < MANY; k += 50) boxes[k].hi[k / 50 % 3] += 3;
+        memcpy(given, boxes, sizeof boxes);
+        memset(visits, 0, sizeof visits);
+        const int axis = broad_phase_sort(boxes, MANY);
+        ck_assert(strips_make(&s, boxes, MANY, axis, gamma_clear, NULL));
+        ck_assert_uint_ge(s.count, 4);
+        ck_assert(s.wide_count > 0 && count_divided(&s, MANY) > MANY / 4);
+        for (size_t k = 0; k < MANY; ++k)
+            ck_assert(strips_visit_box(&s, boxes, MANY, axis, k, gamma_clear, &visitor));
+        strips_clear(&s);
+        check_visits(given, MANY, gamma_clear);
     }
 }
 END_TEST
@@ -122,7 +162,7 @@ START_TEST(the_least_distance_bounds_that_of_some_boxes)
     const uint64_t groups[4] = {1, 2, 7, 1 << 30};
     for (int round = 0; round < suite_times(300); ++round) {
         swept_box boxes[BOXES];
-        draw(boxes, round % 3, groups[round % 4], &state);
+        draw(boxes, BOXES, round % 3, groups[round % 4], &state);
         const int axis = broad_phase_sort(boxes, BOXES);
         double expected = INFINITY;
         for (size_t a = 0; a < BOXES; ++a)
@@ -140,5 +180,5 @@ START_TEST(the_least_distance_bounds_that_of_some_boxes)
 END_TEST
 
 SUITE_MAIN("broad phase", each_two_near_boxes_are_visited_once_along_any_axis,
-           the_sweep_runs_along_the_axis_that_is_not_crowded,
+           strips_leave_out_no_near_boxes, the_sweep_runs_along_the_axis_that_is_not_crowded,
            the_least_distance_bounds_that_of_some_boxes)

@@ -134,6 +134,13 @@ static imp_result solve(imp_scene *scene)
     return r;
 }
 
+static imp_result limited(imp_scene *scene, const imp_options *options)
+{
+    imp_result r = {.struct_size = sizeof r};
+    good(imp_scene_solve(scene, options, &r, &error));
+    return r;
+}
+
 static imp_clearance measure(imp_scene *scene)
 {
     const imp_options options = imp_options_default(scene);
@@ -167,6 +174,15 @@ static void check_same_result(const imp_result *x, const imp_result *y)
     check_same_side(&x->b, &y->b);
 }
 
+/* Bytes of the instances that a scene keeps to refill them. */
+static uint64_t spare_bytes(const imp_scene *scene)
+{
+    uint64_t bytes = 0;
+    for (size_t k = 0; k < scene->spare_count; ++k) bytes += instance_bytes(scene->spare[k]);
+    return bytes;
+}
+
+/* A scene that was changed holds more than one that is built so by what it keeps to refill. */
 static void check_same(imp_scene *x, imp_scene *y)
 {
     const imp_result of_x = solve(x), of_y = solve(y);
@@ -174,7 +190,7 @@ static void check_same(imp_scene *x, imp_scene *y)
     const imp_clearance near_x = measure(x), near_y = measure(y);
     ck_assert(near_x.lower == near_y.lower && near_x.upper == near_y.upper);
     ck_assert_uint_eq(near_x.stats.pairs, near_y.stats.pairs);
-    ck_assert_uint_eq(scene_bytes(x), scene_bytes(y));
+    ck_assert_uint_eq(scene_bytes(x) - spare_bytes(x), scene_bytes(y) - spare_bytes(y));
     ck_assert(is_same(x->t_from, y->t_from) && is_same(x->t_to, y->t_to));
 }
 
@@ -218,6 +234,33 @@ START_TEST(each_number_can_be_changed_alone)
     good(set(scene, &all[4]));
     built = build(&y);
     check_same(scene, built);
+    imp_scene_free(built);
+    imp_scene_free(scene);
+}
+END_TEST
+
+/* A limit of bytes ends a query of a changed scene whose kept instances do not fit. */
+START_TEST(what_is_kept_to_be_refilled_counts)
+{
+    uint64_t random = suite_seed();
+    const numbers before = draw_numbers(&random), after = draw_numbers(&random);
+    imp_scene *scene = build(&before), *built = build(&after);
+    const uint64_t begun = scene_bytes(scene);
+    stage all[STAGES];
+    list_stages(&after, all);
+    ck_assert_uint_eq(spare_bytes(scene), 0);
+    good(set(scene, &all[0]));
+    const uint64_t kept = spare_bytes(scene);
+    ck_assert_uint_gt(kept, 0);
+    ck_assert_uint_eq(scene_bytes(scene), begun + kept);
+    good(set(scene, &all[0])); /* refills the one, and keeps the other */
+    ck_assert_uint_eq(scene_bytes(scene), begun + kept);
+    set_all(scene, &after);
+    ck_assert_uint_eq(scene_bytes(scene), scene_bytes(built) + spare_bytes(scene));
+    imp_options options = imp_options_default(scene);
+    options.max_bytes = solve(built).stats.bytes;
+    ck_assert(limited(built, &options).reason == IMP_REASON_NONE);
+    ck_assert(limited(scene, &options).reason == IMP_REASON_MEMORY);
     imp_scene_free(built);
     imp_scene_free(scene);
 }
@@ -487,6 +530,7 @@ int main(void)
 {
     const TTest *const tests[] = {a_changed_scene_answers_like_one_that_is_built_so,
                                   each_number_can_be_changed_alone,
+                                  what_is_kept_to_be_refilled_counts,
                                   trees_of_other_surfaces_stay,
                                   maps_that_become_equal_are_one_map,
                                   isolated_maps_that_become_equal_are_one_map,
