@@ -84,6 +84,7 @@ tools_bench = \
     tools/bench/cases.c \
     tools/bench/certificate_cases.c \
     tools/bench/certificates.c \
+    tools/bench/changes.c \
     tools/bench/columns.c tools/bench/columns.h \
     tools/bench/conformal.c \
     tools/bench/parameters.c \

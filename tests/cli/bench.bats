@@ -197,7 +197,7 @@ counts() { jq 'del(.. | .seconds?)' <<<"$output"; }
     run -0 --separate-stderr "$IMPINGE" bench --method paper --max-pairs 1 --repeat 1 --json
     valid bench
     json '[.sets[].set] == ["figure7", "bicubic", "spikes", "tori", "rates", "moving"]'
-    [ "$(grep -c 'is for the default method only, and left out' <<<"$stderr")" -eq 9 ]
+    [ "$(grep -c 'is for the default method only, and left out' <<<"$stderr")" -eq 10 ]
     [[ $stderr == *"set 'bodies'"* ]]
 }
 
@@ -212,6 +212,15 @@ counts() { jq 'del(.. | .seconds?)' <<<"$output"; }
     json 'all(.sets[0].cases[]; (.methods[0] | has("certificates") | not) and .scenes as $n |
         .methods[1].certificates | .count == $n and .hold == $n and .bytes.mean > 1000 and
         .verify_seconds.mean > 0 and .verify_over_solve > 1)'
+}
+
+@test "a scene that changes has the answers and pairs of scenes built anew" {
+    run -0 "$IMPINGE" bench changes --repeat 1 --json
+    valid bench
+    json '.sets[0].cases | length == 3 and all(.[]; .scenes == 200 and (.methods | length == 2 and
+        .[0].verdicts == .[1].verdicts and .[0].pairs == .[1].pairs and .[0].ratio.seconds > 0))'
+    json '[.sets[0].cases[].methods[0] | .verdicts.contact, .pairs.max] | min == 0 and max > 5'
+    json '.sets[0].findings | keys == ["ball_over_built", "motion_over_built", "points_over_built"]'
 }
 
 @test "certificates are not measured where no verifier is" {

@@ -42,6 +42,8 @@ typedef struct bench_case {
     double cut;      /* if > 0: asked only up to this part of the time until the first contact */
     uint64_t goal[BENCH_ROWS_MAX]; /* pairs that each of the set's methods may take; 0: no goal */
     bool goal_is_open[BENCH_ROWS_MAX]; /* known not to be reached yet */
+    int change;                        /* BENCH_CHANGES: what changes, of changes.c, */
+    size_t steps;                      /* and how often; such a case has no scenes of its own */
     bench_scene *scenes;
     size_t count, capacity;
 } bench_case;
@@ -78,6 +80,7 @@ typedef enum bench_question {
     BENCH_DECISION,   /* is 0.99 of the minimum distance kept? */
     BENCH_PROOF,      /* do they stay 0.99 of the least distance apart? */
     BENCH_STREAM,     /* contact, of all scenes one after the other, reading them included */
+    BENCH_CHANGES,    /* contact, in one scene whose numbers change with each step */
     BENCH_CERTIFICATE /* what the case asks, keeping the proof, which is then verified */
 } bench_question;
 
@@ -87,7 +90,8 @@ typedef struct bench_method {
     bench_question question;
     bool capped;         /* whether it ends at the request's budget, */
     uint64_t pairs_most; /* or at this one, if that is less; 0: none */
-    size_t threads; /* BENCH_STREAM: of the batch; 0: no batch, each scene is read and solved */
+    size_t threads;  /* BENCH_STREAM: of the batch; 0: no batch, each scene is read and solved */
+    bool is_rebuilt; /* BENCH_CHANGES: each step has a scene of its own, which ratios are against */
 } bench_method;
 
 /* What the command line asks for. */
@@ -131,8 +135,8 @@ typedef struct bench_row {
     bench_tally tally;
 } bench_row;
 
-/* All methods on one case, and the row that ratios are against: the paper's, BENCH_PROOF, or
- * NULL. */
+/* All methods on one case, and the row that ratios are against: the paper's, BENCH_PROOF, scenes
+ * built anew, or NULL. */
 typedef struct bench_result {
     const bench_case *about;
     bench_row rows[BENCH_ROWS_MAX];
@@ -177,9 +181,9 @@ const bench_set *const *bench_sets_all(void);
 const bench_set *bench_set_find(const char *name);
 
 /* Machine parts that slide in each other; nested saddles; everyday scenes; scenes of many bodies;
- * meshes of many triangles; streams of scenes; proofs that are verified. */
+ * meshes of many triangles; streams of scenes; scenes that change; proofs that are verified. */
 extern const bench_set bench_conformal, bench_saddles, bench_parameters, bench_everyday,
-    bench_bodies, bench_surfaces, bench_batch, bench_certificates_set;
+    bench_bodies, bench_surfaces, bench_batch, bench_changes, bench_certificates_set;
 
 /* Returns whether the request measures any method of the set. */
 bool bench_set_is_measured(const bench_set *set, const bench_request *request);
@@ -209,6 +213,10 @@ imp_code bench_measure(imp_registry *registry, const bench_case *c, const bench_
 /* Measures a method of BENCH_STREAM on one case. Times are the median of `repeats` runs. */
 imp_code bench_measure_stream(imp_registry *registry, const bench_case *c, const bench_method *m,
                               const bench_request *request, bench_tally *tally, imp_error *error);
+
+/* Measures a method of BENCH_CHANGES on one case. Times are the median of `repeats` rounds. */
+imp_code bench_measure_changes(imp_registry *registry, const bench_case *c, const bench_method *m,
+                               const bench_request *request, bench_tally *tally, imp_error *error);
 
 /* Measures BENCH_CERTIFICATE on one case. The verifier runs once for each scene. */
 imp_code bench_measure_certificates(imp_registry *registry, const bench_case *c,

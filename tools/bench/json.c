@@ -84,7 +84,7 @@ json_t *bench_result_json(const bench_result *result)
             return NULL;
         }
     return json_pack("{s:s, s:f, s:I, s:o}", "case", c->name, "gamma", c->gamma, "scenes",
-                     (json_int_t)c->count, "methods", rows);
+                     (json_int_t)(c->count + c->steps), "methods", rows);
 }
 
 json_t *bench_set_json(const bench_set *set, json_t *results, const bench_finding *findings,

@@ -222,6 +222,8 @@ imp_code bench_measure(imp_registry *registry, const bench_case *c, const bench_
 {
     if (m->question == BENCH_STREAM)
         return bench_measure_stream(registry, c, m, request, tally, error);
+    if (m->question == BENCH_CHANGES)
+        return bench_measure_changes(registry, c, m, request, tally, error);
     if (m->question == BENCH_CERTIFICATE)
         return bench_measure_certificates(registry, c, request, tally, error);
     *tally = (bench_tally){.scenes = c->count, .earliest = NAN, .latest = NAN};

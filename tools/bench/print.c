@@ -139,6 +139,7 @@ void bench_print_result(const bench_result *result)
     const bench_case *c = result->about;
     printf("%s", c->name);
     if (c->count > 1) printf(" (%zu scenes)", c->count);
+    if (c->steps > 0) printf(" (%zu steps)", c->steps);
     puts("");
     for (size_t k = 0; k < result->row_count; ++k) print_row(result, k);
 }

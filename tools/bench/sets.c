@@ -258,6 +258,7 @@ static const bench_set *const all[] = {&figure7,
                                        &bench_bodies,
                                        &bench_surfaces,
                                        &bench_batch,
+                                       &bench_changes,
                                        &bench_certificates_set,
                                        NULL};
 
