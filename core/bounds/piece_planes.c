@@ -104,16 +104,20 @@ static imp_code take_shadow(const piece_course *of, shadow *s, imp_error *error)
  *                     >= min over corners (n.k) p - |n x k| q + n.c + h - max over corners n.x
  *                        - (off + both slacks) (1 + 8 u);
  *
- * where the course does not spin, n.z stands for the first terms and n.c. Rounding, in units of u
- * times |c|, |z| and |x| at most: z - c 1; k 8; p 4; cross product 4 and its length 4; n.k and |n x
- * k| 8 + 8 each; products and sum 4; n.c and n.x 4 each; sums 4. Of what is left out: sums 4, 8. */
+ * where the course does not spin, n.z stands for the first terms and n.c. What wanders across the
+ * line loses |n x k| of its length: nothing but rounding, if the plane is across the line, too.
+ * Several pieces have one plane, if x is any corner of them. Rounding, in units of u times |c|,
+ * |z|, |x| and what wanders at most: z - c 1; k 8; p 4; cross product 4 and its length 4; n.k and
+ * |n x k| 8 + 8 each; products and sum 4; n.c and n.x 4 each; sums 4. Of what is left out: product
+ * 1, sums 5, 8. */
 enum { PLANE_ROUNDING = 256 };
 _Static_assert(1 + 8 + 4 + 8 + 2 * 16 + 4 + 8 + 4 <= PLANE_ROUNDING, "rounding of a plane");
-PAD_COVERS(16, 4 + 8);
+PAD_COVERS(16, 6 + 8);
 
-/* Returns a model over the course that is no greater than the distance of the piece from b. */
-static imp_model beyond(const piece_course *of, const shadow *s, const vec3 corner[4], vec3 n,
-                        size_t *nearest)
+/* Returns a model over the course that is no greater than the distance from b of pieces with
+ * these corners. */
+static imp_model beyond(const piece_course *of, const shadow *s, const vec3 *corner, size_t corners,
+                        vec3 n, size_t *nearest)
 {
     const surface_course *c = &of->course;
     const vec3 w = weights_of(c, n);
@@ -123,27 +127,29 @@ static imp_model beyond(const piece_course *of, const shadow *s, const vec3 corn
         const double here = vec3_dot(w, s->of[k].p);
         if (!(here >= least)) least = here, *nearest = s->of[k].piece;
     }
-    for (int k = 0; k < 4; ++k) {
+    for (size_t k = 0; k < corners; ++k) {
         const double here = vec3_dot(n, corner[k]);
         if (!(here <= most)) most = here;
     }
     for (int i = 0; i < 3; ++i) axis[i] = imp_num(n.x[i]);
     const double at = c->spins ? vec3_dot(n, vec3_from(c->center)) : 0;
     const double center = c->spins ? vec3_norm(vec3_from(c->center)) : 0;
-    const double size = s->reach + of->own->reach + center;
-    const double off = padded_upper(
-        c->off + of->own->slack + of->other->slack + PLANE_ROUNDING * UNIT_ROUNDOFF * size, 16);
+    const double size = s->reach + of->own->reach + center + c->wander;
+    const double wander = c->wander > 0 ? c->wander * -w.x[1] : 0;
+    const double off = padded_upper(c->off + wander + of->own->slack + of->other->slack +
+                                        PLANE_ROUNDING * UNIT_ROUNDOFF * size,
+                                    16);
     const imp_model g = imp_shift(imp_dot3(axis, c->way), least + at - most - off);
     return imp_scale(g, 1 - 0x1p-48);
 }
 
-/* Whether the plane of a piece with that normal parts it from b at some times of the window; *left
+/* Whether a plane with that normal parts the pieces from b at some times of the window; view->left
  * becomes the others. */
-static bool part_by(const piece_course *of, const shadow *s, const vec3 corner[4], vec3 n,
-                    double gamma_clear, piece_view *view)
+static bool part_by(const piece_course *of, const shadow *s, const vec3 *corner, size_t corners,
+                    vec3 n, double gamma_clear, piece_view *view)
 {
     const time_window whole = view->left;
-    const imp_model g = beyond(of, s, corner, n, &view->hint.piece[1]);
+    const imp_model g = beyond(of, s, corner, corners, n, &view->hint.piece[1]);
     view->is_apart =
         distance_cut_heights(&g, 1, &of->times, gamma_clear, &view->left, &view->lower);
     return view->is_apart || view->lower > 0 || view->left.lo > whole.lo ||
@@ -170,18 +176,71 @@ bool piece_view_is_useless(const piece_view *view, const time_window *window)
            view->left.hi >= window->hi;
 }
 
-static void try_piece(const piece_course *of, const shadow *s, const vec3 corner[4],
-                      double gamma_clear, piece_view *one)
+/* A unit vector across the piece, on either side. False: there is none. */
+static bool across_piece(const vec3 corner[4], int side, vec3 *n)
 {
     const vec3 across = vec3_cross(vec3_sub(corner[3], corner[0]), vec3_sub(corner[2], corner[1]));
     const double length = vec3_norm(across);
+    *n = vec3_scale(across, (side == 0 ? 1 : -1) / length);
+    return length > 0x1p-500 && length < INFINITY;
+}
+
+static void try_piece(const piece_course *of, const shadow *s, const vec3 corner[4],
+                      double gamma_clear, piece_view *one)
+{
     const time_window window = one->left;
-    if (!(length > 0x1p-500 && length < INFINITY)) return;
-    for (int side = 0; side < 2; ++side) {
+    vec3 n;
+    for (int side = 0; side < 2 && across_piece(corner, side, &n); ++side) {
         *one = (piece_view){.left = window};
-        const vec3 n = vec3_scale(across, (side == 0 ? 1 : -1) / length);
-        if (part_by(of, s, corner, n, gamma_clear, one)) return;
+        if (part_by(of, s, corner, 4, n, gamma_clear, one)) return;
     }
+}
+
+/* --- One plane for all pieces ----------------------------------------------------------------- */
+
+/* Its cost grows with the square of their number. */
+enum { PIECES_AT_ONCE = 32 };
+
+/* About how far a plane with that normal is from b, all of a being behind it, at the middle of the
+ * times. */
+static double about_beyond(const piece_course *of, const shadow *s, vec3 n)
+{
+    const surface_course *c = &of->course;
+    const vec3 w = weights_of(c, n), way = {{c->way[0].a, c->way[1].a, c->way[2].a}};
+    double least = INFINITY, most = -INFINITY;
+    for (size_t k = 0; k < s->count; ++k)
+        if (vec3_dot(w, s->of[k].p) < least) least = vec3_dot(w, s->of[k].p);
+    for (size_t k = 0; k < 4 * of->own->count; ++k) {
+        const double here = vec3_dot(n, of->own->of[k / 4][k % 4]);
+        if (here > most) most = here;
+    }
+    const double at = c->spins ? vec3_dot(n, vec3_from(c->center)) : 0;
+    return least - most + at + vec3_dot(n, way) -
+           c->wander * vec3_norm(vec3_cross(n, vec3_from(c->axis)));
+}
+
+/* Tries the plane of that piece which is farthest from b if all of a is behind it: side pieces of a
+ * convex body have no plane of their own that parts them from what is in front of another. Adds
+ * what it shows to *all. */
+static void try_together(const piece_course *of, const shadow *s, double gamma_clear,
+                         const time_window *window, piece_view *all)
+{
+    const size_t count = of->own->count;
+    piece_view view = {.left = *window};
+    vec3 best = {{0, 0, 0}}, n;
+    double most = 0;
+    if (count == 1 || count > PIECES_AT_ONCE || of->other->count > PIECES_AT_ONCE) return;
+    for (size_t k = 0; k < 2 * count; ++k) {
+        if (!across_piece(of->own->of[k / 2], (int)(k % 2), &n)) continue;
+        const double here = about_beyond(of, s, n);
+        if (!(here > most)) continue;
+        most = here, best = n;
+        view.hint.piece[0] = k / 2;
+    }
+    if (!(most > 0)) return;
+    part_by(of, s, of->own->of[0], 4 * count, best, gamma_clear, &view);
+    view.hint.is_known = true;
+    if (view.is_apart || view.lower > all->lower) *all = view;
 }
 
 /* --- Which pieces are nearest ----------------------------------------------------------------- */
@@ -241,8 +300,9 @@ imp_code piece_planes_cut(const piece_course *of, double gamma_clear, const time
         piece_view_join(&all, &one);
         if (piece_view_is_useless(&all, window)) break;
     }
-    if (all.hint.is_known) find_facing(of, &s, &all.hint);
-    arena_store_free_room(of->other->store, s.of);
     if (!piece_view_is_useless(&all, window)) *view = all;
+    if (!view->is_apart) try_together(of, &s, gamma_clear, window, view);
+    if (view->hint.is_known) find_facing(of, &s, &view->hint);
+    arena_store_free_room(of->other->store, s.of);
     return IMP_SUCCESS;
 }

@@ -98,8 +98,8 @@ static double lines_apart(const surface_course *c, const line_frame *f, double r
  * rotation of the symmetry then takes that to c + p k + q e, e any unit vector across, and leaves
  * vectors along k as they are. So what a's type claims of all points within `off` of
  * c + (p + k.way) k + q e, p and q anywhere in the ring, holds for b's point; `off` has 2 s, the
- * part of `way` that is across, the course's, and the slack of b's pieces. The models' u and v
- * stand for p and q. */
+ * part of `way` that is across, the course's with how far it wanders, and the slack of b's pieces.
+ * The models' u and v stand for p and q. */
 static void points_of(const line_frame *f, const imp_region *over, const ring *r, imp_model along,
                       double off, imp_model point[3])
 {
@@ -160,8 +160,8 @@ static bool find_frame(const piece_course *of, line_frame *f, imp_status *status
     return true;
 }
 
-/* Roundings of `off`: sums 6. */
-PAD_COVERS(16, 6);
+/* Roundings of `off`: sums 7. */
+PAD_COVERS(16, 7);
 imp_code piece_rings_cut(const piece_course *of, double gamma_clear, const time_window *window,
                          piece_view *view, imp_error *error)
 {
@@ -177,7 +177,7 @@ imp_code piece_rings_cut(const piece_course *of, double gamma_clear, const time_
     const drift d = drift_of(c, &f);
     const double size =
         of->other->reach + vec3_norm(vec3_from(c->shift)) + vec3_norm(d.at) + vec3_norm(f.center);
-    const double off = padded_upper(lines_apart(c, &f, size) + d.across + c->off +
+    const double off = padded_upper(lines_apart(c, &f, size) + d.across + c->off + c->wander +
                                         of->other->slack + RING_ROUNDING * UNIT_ROUNDOFF * size,
                                     16);
     for (size_t k = 0; k < of->other->count && !piece_view_is_useless(&all, window); ++k) {
@@ -235,8 +235,9 @@ imp_code piece_ball_cut(const piece_course *of, double gamma_clear, const time_w
         const double d = sqrt((along > 0 ? along * along : 0) + (beside > 0 ? beside * beside : 0));
         if (!(d >= lower)) lower = d;
     }
-    const double off = padded_upper(
-        radius + c->off + of->other->slack + 2 * RING_ROUNDING * UNIT_ROUNDOFF * size, 16);
+    const double off = padded_upper(radius + c->off + c->wander + of->other->slack +
+                                        2 * RING_ROUNDING * UNIT_ROUNDOFF * size,
+                                    16);
     view->lower = lower > off ? difference_lower(lower, off) : 0;
     view->is_apart = view->lower > gamma_clear;
     return IMP_SUCCESS;

@@ -180,14 +180,6 @@ static imp_code find_bare(piece_search *q, int side, imp_model bare[3], bool *kn
     return code;
 }
 
-/* A length not below any of the points', and not many times as long. */
-static double rough_size(const imp_model x[3])
-{
-    double sum = 0;
-    for (int i = 0; i < 3; ++i) sum += fabs(x[i].lo) + fabs(x[i].hi);
-    return sum;
-}
-
 static imp_code find_courses(piece_search *q, imp_error *error)
 {
     const imp_region times =
@@ -196,15 +188,12 @@ static imp_code find_courses(piece_search *q, imp_error *error)
     const surface *const s[2] = {q->of->root[0]->surface, q->of->root[1]->surface};
     imp_model bare[2][3];
     bool known[2];
-    double reach = 0;
     for (int side = 0; side < 2; ++side) {
         const imp_code code = find_bare(q, side, bare[side], &known[side], error);
         if (code != IMP_SUCCESS) return code;
-        const double size = known[side] ? rough_size(bare[side]) : 0;
-        if (size > reach) reach = size;
         q->course[side].is_known = false;
     }
-    if (!course_is_likely(s[0], s[1], &times, reach)) return IMP_SUCCESS;
+    if (!course_is_likely(s[0], s[1], &times)) return IMP_SUCCESS;
     for (int side = 0; side < 2; ++side) {
         if (!known[!side]) continue;
         const imp_status status =

@@ -10,18 +10,20 @@
  * A point y of b, before b's last maps, is at each time t of the course, in the coordinates of a
  * before a's last maps, within `off` of
  *
- *   S(t) (turn y + shift) + way(t),
+ *   S(t) (turn y + shift) + way(t) + x(t),
  *
  * where S(t) is a rotation about the line through `center` along `axis`, by any angle, if the
- * course spins, and the identity else. All distances at t are those of the scene. The last maps are
- * all after the first surface_inner_maps, and exact rotations and shifts. */
+ * course spins, and the identity else; x(t) is across the axis and no longer than `wander`, which
+ * is 0 unless b slides across the line about which it turns. All distances at t are those of the
+ * scene. The last maps are all after the first surface_inner_maps, and exact rotations and
+ * shifts. */
 typedef struct surface_course {
     bool is_known; /* else nothing holds */
     bool spins;    /* `way` is then along the axis */
     double turn[3][3], shift[3];
     double center[3], axis[3]; /* |axis| is within 8 u of 1 */
     imp_model way[3];          /* over the times of the course */
-    double off;                /* length */
+    double off, wander;        /* length */
 } surface_course;
 
 /* Counts the maps up to the last one that is no exact rotation or shift. */

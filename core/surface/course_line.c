@@ -74,32 +74,23 @@ static bool relate_places(const surface *a, const surface *b, double t, rigid_nu
     return true;
 }
 
-/* Whether the rotation from m0 to m1 keeps points of the line on it, to a part of `reach`. */
-static bool keeps_line(const rigid_numbers *m0, const rigid_numbers *m1, const double center[3],
-                       const double axis[3], double reach)
+/* Whether the rotation from m0 to m1 keeps the axis, nearly. */
+static bool keeps_axis(const rigid_numbers *m0, const rigid_numbers *m1, const double axis[3])
 {
-    const double part = 0x1p-6;
-    double off[2][3], along = 0;
+    double off[3];
     for (int i = 0; i < 3; ++i) {
-        off[0][i] = -axis[i], off[1][i] = m1->shift[i] - center[i];
+        off[i] = -axis[i];
         for (int k = 0; k < 3; ++k) {
-            double axis_then = 0, center_then = 0; /* M0^-1 of both */
-            for (int j = 0; j < 3; ++j) {
-                axis_then += m0->turn[j][k] * axis[j];
-                center_then += m0->turn[j][k] * (center[j] - m0->shift[j]);
-            }
-            off[0][i] += m1->turn[i][k] * axis_then, off[1][i] += m1->turn[i][k] * center_then;
+            double then = 0; /* M0^-1 of it */
+            for (int j = 0; j < 3; ++j) then += m0->turn[j][k] * axis[j];
+            off[i] += m1->turn[i][k] * then;
         }
-        along += axis[i] * off[1][i];
-    }
-    for (int i = 0; i < 3; ++i) {
-        off[1][i] -= along * axis[i];
-        if (fabs(off[0][i]) > part || fabs(off[1][i]) > part * reach) return false;
+        if (fabs(off[i]) > 0x1p-6) return false;
     }
     return true;
 }
 
-bool course_is_likely(const surface *a, const surface *b, const imp_region *times, double reach)
+bool course_is_likely(const surface *a, const surface *b, const imp_region *times)
 {
     static const double parts[3] = {0.5, 0.81, 0.23};
     rigid_numbers m[3];
@@ -112,5 +103,5 @@ bool course_is_likely(const surface *a, const surface *b, const imp_region *time
     for (int k = 0; k < 2; ++k) sine[k] = course_line_between(&m[0], &m[1 + k], center[k], axis[k]);
     const int best = sine[1] > sine[0];
     if (!(sine[best] > SINE_LEAST)) return true;
-    return keeps_line(&m[0], &m[1 + !best], center[best], axis[best], reach);
+    return keeps_axis(&m[0], &m[1 + !best], axis[best]);
 }

@@ -21,9 +21,9 @@ typedef struct rigid_numbers {
 double course_line_between(const rigid_numbers *m0, const rigid_numbers *m1, double center[3],
                            double axis[3]);
 
-/* Whether poses at three of the times look like a shift, or like turns about one line: few motions
- * do, and to bound the course costs a hundred times as much. What b sees of a is of the same kind.
- * `reach` is about the size of the larger. */
-bool course_is_likely(const surface *a, const surface *b, const imp_region *times, double reach);
+/* Whether poses at three of the times look like shifts, or like turns about lines of one direction:
+ * few motions do, and to bound the course costs a hundred times as much. What b sees of a is of the
+ * same kind. */
+bool course_is_likely(const surface *a, const surface *b, const imp_region *times);
 
 #endif

@@ -33,6 +33,12 @@ typedef struct slip_place {
 /* Computes *slip, given the symmetry; INFINITY if the motion leaves the symmetry. */
 imp_status slip_find(const slip_input *q, const imp_region *times, double *slip);
 
+/* For a symmetry across a line and maps that are exact rotations and shifts: computes how far the
+ * plane rises above the middle of a's points from `then` to the given times, along the axis, and
+ * >= how far the turn that takes its normal there moves a's points. INFINITY: it is not known. */
+imp_status slip_follow_plane(const slip_input *q, const imp_region *times, imp_model *rise,
+                             double *tilt);
+
 /* slip_find for a screw. It goes on until *slip is at most `enough`, or gives up: INFINITY. */
 imp_status slip_find_screw(const slip_input *q, const imp_region *times, double enough,
                            double *slip);

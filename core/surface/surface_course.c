@@ -184,6 +184,47 @@ static imp_status follow_line(const surface *a, const surface *b, const imp_regi
     return IMP_STATUS_OK;
 }
 
+/* Lemma. Let all maps be exact rotations and shifts: M(t) y = M(t) m + Q(t) (y - m), m the middle
+ * of b's points; k a unit vector, and n(t) = Q(t)^T k. T, the smallest rotation that takes n(t0) to
+ * n(t), moves y - m by at most `tilt`, and R = Q(t) T Q(t0)^T keeps k. With c near M(t0) m and S
+ * the rotation R about the line through c along k,
+ *
+ *   M(t) y - S M(t0) y = (M(t) m - c) - R (M(t0) m - c) + Q(t) (1 - T) (y - m).
+ *
+ * Of the first two terms, k.(M(t) m - M(t0) m) is along k: the plane k.x = 0 is n(t).y = h(t) in
+ * b's coordinates, and k.M(t) m = n(t).m - h(t), by how much the plane is below m. What is across
+ * is no longer than the sum of |M(t) m - c| and |M(t0) m - c|. k = axis / |axis|, as in
+ * follow_line. */
+static imp_status find_slide(slip_input *q, const imp_region *times, const relative *m0,
+                             surface_course *course)
+{
+    const surface *a = q->b, *b = q->a;
+    imp_model now[3], then[3], rise;
+    double middle[3], tilt;
+    memset(q->found.center, 0, sizeof q->found.center);
+    q->found.kind = IMP_SYMMETRY_ACROSS_LINE;
+    imp_status status = slip_follow_plane(q, times, &rise, &tilt);
+    if (status != IMP_STATUS_OK || !(tilt < INFINITY)) return status;
+    for (int i = 0; i < 3; ++i) middle[i] = 0.5 * q->bare[i].lo + 0.5 * q->bare[i].hi;
+    status = carry_point(a, b, middle, times, now);
+    if (status == IMP_STATUS_OK) status = carry_point(a, b, middle, &q->then, then);
+    if (status != IMP_STATUS_OK) return status;
+    course->spins = true;
+    memcpy(course->axis, q->found.axis, sizeof course->axis);
+    take_numbers(m0, q->bare, true, course);
+    course->off = sum_upper(course->off, tilt);
+    for (int i = 0; i < 3; ++i) {
+        course->center[i] = then[i].a;
+        now[i] = imp_shift(now[i], -course->center[i]);
+        then[i] = imp_shift(then[i], -course->center[i]);
+        const imp_model along = imp_scale(imp_neg(rise), course->axis[i]);
+        course->way[i] = imp_mul(along, imp_between(1 - 0x1p-48, 1 + 0x1p-48));
+    }
+    course->wander = sum_upper(surface_size_upper(now), surface_size_upper(then));
+    course->is_known = course->off < INFINITY && course->wander < INFINITY;
+    return IMP_STATUS_OK;
+}
+
 static imp_status find_spin(const surface *a, const surface *b, const imp_model bare[3],
                             const imp_region *times, double moment, surface_course *course)
 {
@@ -197,7 +238,8 @@ static imp_status find_spin(const surface *a, const surface *b, const imp_model 
     if (status == IMP_STATUS_OK) status = find_line(a, b, times, moment, &m0, &q.found, &found);
     if (status != IMP_STATUS_OK || !found || !symmetry_is_sane(&q.found)) return status;
     status = slip_find(&q, times, &slip);
-    if (status != IMP_STATUS_OK || !(slip < INFINITY)) return status;
+    if (status != IMP_STATUS_OK) return status;
+    if (!(slip < INFINITY)) return find_slide(&q, times, &m0, course);
     course->spins = true;
     memcpy(course->center, q.found.center, sizeof q.found.center);
     memcpy(course->axis, q.found.axis, sizeof q.found.axis);

@@ -173,6 +173,24 @@ static double slip_upper(const imp_symmetry *of, const slip_place *now, const sl
     return padded_upper(shift + turn * (now->far + added) + points, 16);
 }
 
+/* Lemma. In that of slip_upper, the turn about m that takes n(t0) to n(t) moves points of a by at
+ * most |n(t) - n(t0)| times their distance from m. */
+imp_status slip_follow_plane(const slip_input *q, const imp_region *times, imp_model *rise,
+                             double *tilt)
+{
+    slip_place now, then;
+    imp_model w[3];
+    *tilt = INFINITY;
+    imp_status status = locate_symmetry(q, &q->then, &then);
+    if (status == IMP_STATUS_OK) status = locate_symmetry(q, times, &now);
+    if (status != IMP_STATUS_OK) return status;
+    for (int i = 0; i < 3; ++i) w[i] = imp_sub(now.plane.normal.at[i], then.plane.normal.at[i]);
+    *rise = imp_sub(now.plane.height, then.plane.height);
+    const double most = surface_size_upper(w) / length_lower(q->found.axis) * now.far;
+    if (most >= 0) *tilt = padded_upper(most, 16);
+    return IMP_STATUS_OK;
+}
+
 /* --- Over all times --------------------------------------------------------------------------- */
 
 /* If models of a turn are loose over a span, its halves are tried, recursively up to this depth. A

@@ -36,6 +36,11 @@
     "{'type':'rotate','axis':[1,2,3],'angle':[0.5]},{'type':'rotate','axis':[1,2,3],'angle':[0.2]" \
     "}"
 
+/* Takes x, y and z to (2,-1,2)/3, (2,2,-1)/3 and (-1,2,2)/3, in which coordinates the motions that
+ * follow are written, as CAD exports them. */
+#define INCLINE "{'type':'rotate','axis':[1,1,1],'angle':[-1.0471975511965976]}"
+#define INCLINED "-1,2,2"
+
 #define Z_AXIS "0,0,1"
 #define TUMBLE TURN("1,2,3", "2") "," TURN_AT("0,1,0", "1.5", "3,0,0") "," MOVE("5,1,0")
 #define WHIRL TURN("1,2,3", "20") "," MOVE("5,1,0")
@@ -212,4 +217,25 @@ const everyday_family everyday_families[] = {
     {"splined shaft in its hub", EXTRUSION(CROSS("1", "0.3", "-1", "-0.3"), "2") "}", PLACE,
      EXTRUSION(CROSS("~1", "~0.3", "@-1", "@-0.3"), "1") ",'ends':true}",
      MOVE("0,0,0.5") "," SAME_PLACE, BOND_NONE, 0, false, FIVE, 1000, "", ""},
+    /* in turned coordinates */
+    {"box turns and slides on a plane, turned", PLANE("-4,-1,-1", "4,-2,4", "4,4,-2"), "",
+     BOX("1,1,1", "0,0,@0.5"), INCLINE "," TURN(INCLINED, "1.3") "," MOVE("0.6,0.6,-0.3"),
+     BOND_NONE, 0, false, FIVE, 50, "", ""},
+    {"box turns and slides on a box, turned", BOX("2,1.3,0.6", "0,0,-0.3"), INCLINE,
+     BOX("0.7,0.4,0.4", "0.9,0,@0.2"),
+     INCLINE "," TURN_AT(INCLINED, "0.8", "0.7,0.2,0.4") "," MOVE("0.2,-0.2,0.3"), BOND_NONE, 0,
+     false, FIVE, 50, "", ""},
+    {"scissors, turned", BOX("1.6,0.15,0.04", "0.4,0,-0.02"), INCLINE "," TURN(INCLINED, "-1.1"),
+     BOX("1.6,0.15,0.04", "0.4,0,@0.02"), INCLINE "," TURN(INCLINED, "1.2"), BOND_NONE, 0, false,
+     FIVE, 50, "", ""},
+    {"disc of a brake, turned",
+     BOX("0.3,0.4,0.1", "0.8,0,@0.14") "," BOX("0.3,0.4,0.1", "0.8,0,~-0.14"), INCLINE,
+     CAN("1", "0.18", "0,0,0"), INCLINE "," TURN(INCLINED, "20"), BOND_NONE, 0, false, FIVE, 500,
+     "", ""},
+    {"knuckles of a hinge, turned", CAN("0.1", "0.3", "0,0,@0.15"), INCLINE,
+     CAN("0.1", "0.3", "0,0,-0.15"), INCLINE "," TURN(INCLINED, "1.8"), BOND_NONE, 0, false, FIVE,
+     100, "", ""},
+    {"shaft slides in its bore, turned", CYLINDER("1", "2", "0,0,0"), INCLINE,
+     CYLINDER("~1", "3", "0,0,0"), INCLINE "," TURN(INCLINED, "20") "," MOVE("-0.1,0.2,0.2"),
+     BOND_NONE, 0, false, FIVE, 50, "", ""},
     {NULL, "", "", "", "", BOND_NONE, 0, false, "", 0, "", ""}};
