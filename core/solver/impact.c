@@ -16,6 +16,7 @@ void impact_push(impact *im, pair_test *t)
     if (!t->near) return;
     pair *p = &t->p;
     p->key[0] = p->window.lo;
+    p->divided = 0;
     pair_push(&im->heap, p, p->window.lo, &im->serial, im->stats);
 }
 

@@ -208,6 +208,25 @@ static imp_code seek_upper_time(impact *im, pair *p, imp_error *error)
     return code;
 }
 
+/* Parts the pair up to the known contact by the divider there (net_divider.h), if that succeeds:
+ * the rest of the window goes back on the heap. Not where a proof is kept: its verifier knows no
+ * dividers. Precondition: the heap has capacity. */
+static bool part_by_divider(impact *im, pair *p)
+{
+    const upper_time *up = &im->upper;
+    const time_window until = window_common(p->window, (time_window){p->window.lo, up->t});
+    if (!up->is_known || !up->has_horizon || im->proof != NULL || p->divided == up->count ||
+        up->candidate_pair != p->candidate_pair || !(until.lo < until.hi))
+        return false;
+    p->divided = up->count;
+    if (!net_divider_parts(p->a, p->b, &up->divider, im->gamma_clear, &until)) return false;
+    if (!(p->window.hi > up->t)) return true;
+    p->window.lo = p->key[0] = up->t;
+    p->key[1] = pair_order(p, up->t);
+    pair_heap_push(&im->heap, p);
+    return true;
+}
+
 /* --- One step --------------------------------------------------------------------------------- */
 
 /* Allocates the counts of trials (pair_trials). False: no memory. */
@@ -249,6 +268,7 @@ imp_code impact_advance(impact *im, impact_state *state, imp_error *error)
     postpone(im, &p);
     if (!complete_test(im, &p)) return IMP_SUCCESS;
     code = seek_upper_time(im, &p, error);
+    if (code == IMP_SUCCESS && part_by_divider(im, &p)) return IMP_SUCCESS;
     pair expanded = p; /* p itself is pushed again if the search ends here */
     if (code == IMP_SUCCESS) code = expand_pair(im, &expanded, state, error);
     if (code != IMP_SUCCESS || *state != IMPACT_RUNNING) pair_heap_push(&im->heap, &p);

@@ -46,6 +46,8 @@ static void take(upper_time *up, const pair *p, const contact_estimate *met, con
     up->t = met->t;
     up->seen = *seen;
     up->candidate_pair = p->candidate_pair;
+    up->divider = met->divider;
+    up->count += 1;
     up->horizon = met->t + (rest > 0 && rest < INFINITY ? rest : 0);
 }
 

@@ -3,6 +3,7 @@
 #ifndef CORE_SOLVER_UPPER_TIME_H
 #define CORE_SOLVER_UPPER_TIME_H
 
+#include "core/bounds/net_divider.h"
 #include "core/solver/pair_heap.h"
 #include "core/witness/witness.h"
 
@@ -18,8 +19,10 @@ typedef struct upper_time {
     double t;
     witness seen;
     uint32_t candidate_pair; /* of the witness */
-    bool has_horizon;
+    bool has_horizon;        /* the contact was found by following nets; then only: */
     double horizon;          /* t or a little later: windows of expanded pairs end there */
+    net_divider divider;     /* of the surfaces at the contact */
+    uint32_t count;          /* of such contacts so far, each earlier than the one before */
     uint64_t followed, next; /* pairs expanded; the count at which the next search is made */
 } upper_time;
 

@@ -46,7 +46,7 @@ measured() {
 }
 
 @test "a scene of moving patches takes at most 100 pairs in the mean" {
-    measured 'row("bicubic"; "gamma 1e-06").pairs.mean <= 100'
+    measured 'row("bicubic"; "gamma 1e-06").pairs.mean <= 45'
     measured 'row("saddles"; "random") | .verdicts.undecided == 0 and .pairs.mean <= 100'
 }
 

@@ -1,0 +1,224 @@
+/* SPDX-FileCopyrightText: The Impinge authors
+ * SPDX-License-Identifier: Apache-2.0 */
+#include <config.h>
+
+#include "core/bounds/net_divider.h"
+
+#include "core/bounds/divided_heights.h"
+#include "core/bounds/divider_place.h"
+
+/* --- What has to be exceeded ------------------------------------------------------------------ */
+
+/* Sizes of what is divided, over both nets and both ends of the window. */
+typedef struct sizes {
+    double most;         /* of all coordinates computed */
+    double across[2];    /* of those along `across` */
+    double change[2][2]; /* how far these move over the window, for each side */
+} sizes;
+
+IMP_QUAD_INLINE double greatest(imp_quad x)
+{
+    const double p = x[0] > x[1] ? x[0] : x[1], q = x[2] > x[3] ? x[2] : x[3];
+    return p > q ? p : q;
+}
+
+IMP_QUAD_INLINE double greatest_of(const imp_quad row[4])
+{
+    imp_quad most = imp_quad_abs(row[0]);
+    for (int k = 1; k < 4; ++k) most = imp_quad_max(imp_quad_abs(row[k]), most);
+    return greatest(most);
+}
+
+IMP_QUAD_INLINE void sizes_take(sizes *s, const placed *p, bool is_flat)
+{
+    const double z = greatest_of(p->z);
+    if (z > s->most) s->most = z;
+    for (int i = 0; i < 2 && !is_flat; ++i) {
+        const double x = greatest_of(p->x[i]);
+        if (x > s->across[i]) s->across[i] = x;
+        if (x > s->most) s->most = x;
+    }
+}
+
+IMP_QUAD_INLINE void sizes_take_change(sizes *s, int side, const placed *early, const placed *late)
+{
+    for (int i = 0; i < 2; ++i) {
+        imp_quad by[4];
+        for (int k = 0; k < 4; ++k) by[k] = late->x[i][k] - early->x[i][k];
+        s->change[side][i] = greatest_of(by);
+    }
+}
+
+/* Bounds the greatest sum of a row of the Gram matrix of the divider's vectors: no linear
+ * combination is longer than its root times the root of the sum of the squared coefficients. */
+static double gram_upper(const net_divider *d)
+{
+    const vec3 *v[3] = {&d->normal, &d->across[0], &d->across[1]};
+    double most = 0;
+    for (int i = 0; i < 3; ++i) {
+        double row = 0;
+        for (int j = 0; j < 3; ++j) row += fabs(vec3_dot(*v[i], *v[j]));
+        if (row > most) most = row;
+    }
+    return most + 0x1p-45; /* 3 + 2 roundings of 9 * 1.125^2 < 12 at most: < 2^-46 */
+}
+
+/* The greatest numbers of a divider. */
+#define DIVIDER_LARGE 0x1p200
+
+static bool is_usable(const net_divider *d)
+{
+    bool fine = fabs(d->time) < DIVIDER_LARGE;
+    for (int i = 0; i < 3; ++i)
+        fine = fine && fabs(d->normal.x[i]) <= 1.125 && fabs(d->across[0].x[i]) <= 1.125 &&
+               fabs(d->across[1].x[i]) <= 1.125 && fabs(d->at.x[i]) < DIVIDER_LARGE &&
+               fabs(d->velocity.x[i]) < DIVIDER_LARGE;
+    return fine && fabs(d->bend[0]) < DIVIDER_LARGE && fabs(d->bend[1]) < DIVIDER_LARGE;
+}
+
+static bool serves(const net *f)
+{
+    return f != NULL && !f->is_weighted && f->degree[0] <= 3 && f->degree[1] <= 3;
+}
+
+/* What the sum of both sides' least heights has to exceed at the window's end, and beyond that at
+ * its start. */
+typedef struct limits {
+    double end, more_at_start;
+} limits;
+
+/* Lemma (divider). Let f(x) be normal.X - sum_i bend_i (across_i.X)^2 / 2. For a point x of A and y
+ * of B at a time t, f(y) - f(x) <= G |y - x|, G a bound of |grad f| on the segment from x to y.
+ * grad f is a combination of normal and across_i with the coefficients 1 and -bend_i across_i.X,
+ * so G is the root of gram_upper (1 + sum_i (bend_i m_i)^2) where |across_i.X| <= m_i on both
+ * surfaces: of control points at the window's ends, between which they move linearly, and what
+ * surfaces are off their nets. A surface is within its error of its net's patch, so that f is off
+ * by G times that.
+ *
+ * Let h be f on the patch of B, or -f on that of A, for fixed (u, v): of second order in t, h =
+ * (1 - r) h_0 + r h_1 - c r (1 - r) / 2 at the part r of the window. c is its second derivative by
+ * r, at most the sum of the -+bend_i change_i^2 that are above 0. Let a and b be by how much
+ * the least of both sides' h exceed the limit, together, at start and end, and C the sum of both
+ * sides' c. With a, b > 0 and a + b >= C / 2 the limit is exceeded at all r, by at least
+ *
+ *   (1 - r) a + r b - C r (1 - r) / 2 >= (1 - r)^2 a + r^2 b + r (1 - r) (a + b - C / 2) > 0.
+ *
+ * At one time h is a polynomial of order (6, 6), whose least value is no less than the least of its
+ * Bernstein coefficients, or of those of its parts. Rounding of these, for each side, with E =
+ * PLACE_ROUNDING u S, V = most, B = |bend_0| + |bend_1|; DIVIDED_ROUNDING (divided_heights.h) is
+ * that of coefficients, of V + B V^2:
+ *
+ *   places          E along the normal, bend_i (2 V E + E^2) / 2 of each square
+ *   coefficients    DIVIDED_ROUNDING u (V + B V^2) */
+IMP_QUAD_INLINE limits limits_upper(const net *a, const net *b, const net_divider *d,
+                                    const sizes *s, double size, double gamma_clear)
+{
+    const double bends = fabs(d->bend[0]) + fabs(d->bend[1]);
+    const double off = PLACE_ROUNDING * UNIT_ROUNDOFF * size;
+    const double error = net_off(a) + net_off(b), room = off + 1.25 * error;
+    const double slack = off * (1 + bends * (s->most + off)) +
+                         DIVIDED_ROUNDING * UNIT_ROUNDOFF * (s->most + bends * s->most * s->most);
+    double square = 1, curved = 0;
+    for (int i = 0; i < 2; ++i) {
+        const double slope = d->bend[i] * (s->across[i] + room);
+        const double change = s->change[d->bend[i] > 0 ? 0 : 1][i] + 2 * off;
+        square += slope * slope;
+        curved += fabs(d->bend[i]) * change * change;
+    }
+    const double steepest = padded_upper(sqrt(gram_upper(d) * square), 32);
+    const double limit = steepest * (gamma_clear + error) + 2 * slack;
+    return (limits){padded_upper(limit, 64) + 0x1p-490, padded_upper(0.5 * curved, 32)};
+}
+
+PAD_COVERS(32, 12); /* slopes 3, squares 1, sums 2, root and its product; changes likewise */
+PAD_COVERS(64, 40); /* sums of sizes, none of which is rounded more than 40 times */
+
+/* --- The proof -------------------------------------------------------------------------------- */
+
+/* Both nets at one time. */
+typedef struct placed_nets {
+    placed of[2];
+} placed_nets;
+
+/* Half of how a side's squares count in its heights, which are negative for A. */
+IMP_QUAD_INLINE double half_sign(int side) { return side == 0 ? -0.5 : 0.5; }
+
+/* Whether the corners of the patches, which are on them, permit that the limit is exceeded. */
+IMP_QUAD_INLINE bool corners_exceed(const placed_nets *p, const net_divider *d, bool is_flat,
+                                    double limit)
+{
+    double sum = 0;
+    for (int side = 0; side < 2; ++side) {
+        const double half = half_sign(side), by[2] = {half * d->bend[0], half * d->bend[1]};
+        sum += divided_top(p->of[side].z, p->of[side].x, 2 * half, by, is_flat);
+    }
+    return sum > limit;
+}
+
+IMP_QUAD_INLINE bool all_exceed(const placed_nets *p, const net_divider *d, bool is_flat,
+                                double limit, divided_heights h[2])
+{
+    for (int side = 0; side < 2; ++side) {
+        const double half = half_sign(side), by[2] = {half * d->bend[0], half * d->bend[1]};
+        divided_begin(&h[side], p->of[side].z, p->of[side].x, 2 * half, by, is_flat);
+    }
+    return divided_exceed(h, limit, is_flat);
+}
+
+IMP_QUAD_INLINE void place_both(const net *const nets[2], const net_divider *d, double t,
+                                bool is_flat, placed_nets *p, sizes *s)
+{
+    for (int side = 0; side < 2; ++side) {
+        place(nets[side], d, t, is_flat, &p->of[side]);
+        sizes_take(s, &p->of[side], is_flat);
+    }
+}
+
+IMP_QUAD_INLINE bool parts_by(const node *a, const node *b, const net_divider *d,
+                              double gamma_clear, const time_window *w, bool is_flat)
+{
+    const net *const nets[2] = {node_net_made(a), node_net_made(b)};
+    placed_nets early, late;
+    divided_heights h[2];
+    sizes s = {.most = 0};
+    place_both(nets, d, w->hi, is_flat, &late, &s);
+    if (!corners_exceed(&late, d, is_flat, gamma_clear)) return false;
+    place_both(nets, d, w->lo, is_flat, &early, &s);
+    for (int side = 0; side < 2 && !is_flat; ++side)
+        sizes_take_change(&s, side, &early.of[side], &late.of[side]);
+    const double size = size_of(nets[0], d, w) + size_of(nets[1], d, w);
+    const limits over = limits_upper(nets[0], nets[1], d, &s, size, gamma_clear);
+    const double at_start = over.end + over.more_at_start;
+    if (!(size < DIVIDER_LARGE && at_start < INFINITY)) return false;
+    return corners_exceed(&late, d, is_flat, over.end) &&
+           corners_exceed(&early, d, is_flat, at_start) &&
+           all_exceed(&late, d, is_flat, over.end, h) &&
+           all_exceed(&early, d, is_flat, at_start, h);
+}
+
+IMP_QUAD_INLINE bool parts(const node *a, const node *b, const net_divider *d, double gamma_clear,
+                           const time_window *w)
+{
+    return d->bend[0] == 0 && d->bend[1] == 0 ? parts_by(a, b, d, gamma_clear, w, true)
+                                              : parts_by(a, b, d, gamma_clear, w, false);
+}
+
+IMP_QUAD_NARROW static bool parts_narrow(const node *a, const node *b, const net_divider *d,
+                                         double gamma_clear, const time_window *w)
+{
+    return parts(a, b, d, gamma_clear, w);
+}
+
+IMP_QUAD_WIDE static bool parts_wide(const node *a, const node *b, const net_divider *d,
+                                     double gamma_clear, const time_window *w)
+{
+    return parts(a, b, d, gamma_clear, w);
+}
+
+bool net_divider_parts(const node *a, const node *b, const net_divider *d, double gamma_clear,
+                       const time_window *window)
+{
+    if (!serves(node_net_made(a)) || !serves(node_net_made(b)) || !is_usable(d)) return false;
+    return imp_quad_is_wide() ? parts_wide(a, b, d, gamma_clear, window)
+                              : parts_narrow(a, b, d, gamma_clear, window);
+}
