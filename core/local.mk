@@ -25,7 +25,9 @@ core_base = \
     core/base/active_callback.c core/base/active_callback.h \
     core/base/arena.c core/base/arena.h \
     core/base/arena_store.c core/base/arena_store.h \
+    core/base/file_state.c core/base/file_state.h \
     core/base/file_text.c core/base/file_text.h \
+    core/base/named_files.c core/base/named_files.h \
     core/base/fp_mode.h \
     core/base/limit_watch.h \
     core/base/json_text.c core/base/json_text.h \
@@ -97,6 +99,7 @@ core_plugin = \
     core/plugin/kept_instances.c core/plugin/kept_instances.h \
     core/plugin/load_cache.c core/plugin/open_file.h \
     core/plugin/load_probe.c core/plugin/load_probe.h \
+    core/plugin/npy_head.c core/plugin/npy_head.h \
     core/plugin/output_guard.c core/plugin/output_guard.h \
     core/plugin/parameter_default.c \
     core/plugin/parameter_numbers.c core/plugin/parameter_numbers.h \
@@ -116,7 +119,8 @@ core_plugin = \
     core/plugin/worker.c core/plugin/worker.h \
     core/plugin/worker_pool.c core/plugin/worker_pool.h \
     core/plugin/worker_create.c core/plugin/worker_internal.h \
-    core/plugin/worker_serve.c
+    core/plugin/worker_serve.c \
+    core/plugin/zip_member.c core/plugin/zip_member.h
 
 core_scene = \
     core/scene/assembly.c core/scene/assembly.h \
@@ -129,7 +133,6 @@ core_scene = \
     core/scene/scene_spares.c \
     core/scene/scene_memory.c \
     core/scene/scene_options.c \
-    core/scene/scene_files.c core/scene/scene_files.h \
     core/scene/scene_formula.c \
     core/scene/scene_groups.c core/scene/scene_internal.h \
     core/scene/scene_parameters.c core/scene/scene_parameters.h \
@@ -311,7 +314,7 @@ core_libcore_la_SOURCES = $(core_base) $(core_surface) $(core_tree) $(core_plugi
     $(core_solid) $(core_bounds) $(core_witness) $(core_broad_phase) $(core_proof) \
     $(core_solver) $(core_survey) $(core_reader)
 core_libcore_la_CFLAGS = $(AM_CFLAGS) $(UNROLL_CFLAGS)
-core_libcore_la_LIBADD = core/libcommon.la $(JANSSON_LIBS) -lm
+core_libcore_la_LIBADD = core/libcommon.la $(JANSSON_LIBS) $(ZLIB_LIBS) -lm
 
 # The same objects, public symbols only.
 #

@@ -7,6 +7,7 @@ check_suites = \
     tests/unit/test_touchings \
     tests/unit/test_survey_parts \
     tests/fuzz/api \
+    tests/fuzz/array \
     tests/fuzz/cache \
     tests/fuzz/csv \
     tests/fuzz/elf \
@@ -20,6 +21,7 @@ check_suites = \
     tests/unit/test_alloc_failure \
     tests/unit/test_api \
     tests/unit/test_arena \
+    tests/unit/test_array_archives \
     tests/unit/test_array_files \
     tests/unit/test_union_find \
     tests/unit/test_callers_mode \
@@ -625,6 +627,8 @@ tests_fuzz_elf_LDFLAGS = $(AM_LDFLAGS) -export-dynamic
 tests_fuzz_elf_SOURCES = tests/fuzz/elf.c tests/fuzz/elf_changes.c tests/fuzz/elf_changes.h \
     tests/fuzz/replay.c tests/fuzz/fuzz.h
 tests_fuzz_api_SOURCES = tests/fuzz/api.c tests/fuzz/replay.c tests/fuzz/fuzz_registry.h
+tests_fuzz_array_SOURCES = tests/fuzz/array.c tests/fuzz/replay.c
+tests_fuzz_array_LDADD = $(LDADD) $(JANSSON_LIBS)
 tests_fuzz_cache_SOURCES = tests/fuzz/cache.c tests/fuzz/replay.c tests/fuzz/fuzz_mutate.h
 tests_fuzz_certificate_SOURCES = tests/fuzz/certificate.c tests/fuzz/replay.c
 tests_fuzz_certificate_CPPFLAGS = $(AM_CPPFLAGS) -DPROOF_DOUBLE
@@ -665,6 +669,12 @@ EXTRA_DIST += \
     tests/fuzz/api.d/divided \
     tests/fuzz/api.d/random \
     tests/fuzz/api.d/refined \
+    tests/fuzz/array.d/columns \
+    tests/fuzz/array.d/deflated \
+    tests/fuzz/array.d/lists \
+    tests/fuzz/array.d/plain \
+    tests/fuzz/array.d/stored \
+    tests/fuzz/array.d/whole \
     tests/fuzz/cache.d/codes \
     tests/fuzz/cache.d/cut \
     tests/fuzz/cache.d/empty \

@@ -6,169 +6,103 @@
 
 #include <errno.h>
 #include <math.h>
+#include <stdarg.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 #include <sys/stat.h>
 #include <unistd.h>
 
+#include "core/plugin/npy_head.h"
 #include "core/plugin/open_file.h"
 #include "core/plugin/parameters_internal.h"
+#include "core/plugin/zip_member.h"
 
-/* The format is that of numpy.lib.format: a magic text, a version, the length of the head, and the
- * head, the text of a Python dictionary, behind which the numbers stand. */
-
-enum {
-    MAGIC_BYTES = 8,
-    HEAD_MOST = 1 << 16, /* bytes: that of an array of numbers has 118 */
-    PIECE = 1 << 13      /* numbers that are read at once */
-};
+enum { PIECE = 1 << 13 }; /* numbers that are read at once */
 
 /* What the head says, and where reading has come to. */
 typedef struct npy {
     const imp_parameter *row;
     const char *path;
+    const char *array; /* in an archive; NULL: the file is no archive */
     const place *at;
     imp_error *error;
     FILE *file;
-    uint64_t size; /* of the file; bytes */
-    char kind;     /* f, i, u or b */
-    size_t width;  /* bytes of a number */
-    bool is_big_endian, is_columns_first;
-    uint32_t rank;
-    size_t extent[IMP_RANK_MAX], count;
+    zip_member member; /* where `array` is not NULL */
+    uint64_t size;     /* of the array's file; bytes */
+    npy_head head;
+    size_t count;
 } npy;
+
+static imp_code fail(const npy *f, const place *at, const char *format, ...) STATUS_PRINTF_(3, 4);
+
+/* Reports an error that begins with the name of the file, and of its array. */
+static imp_code fail(const npy *f, const place *at, const char *format, ...)
+{
+    char text[400];
+    va_list arguments;
+    va_start(arguments, format);
+    vsnprintf(text, sizeof text, format, arguments);
+    va_end(arguments);
+    if (f->array == NULL)
+        return place_error(at, f->error, IMP_ERROR_SCENE, "%.200s: %s", f->path, text);
+    return place_error(at, f->error, IMP_ERROR_SCENE, "%.200s: '%.60s': %s", f->path, f->array,
+                       text);
+}
 
 static imp_code refuse(const npy *f, const char *found)
 {
-    return place_error(f->at, f->error, IMP_ERROR_SCENE,
-                       "%.200s: %s; write it by numpy.save(FILE, numpy.asarray(A, dtype=float))",
-                       f->path, found);
+    return fail(f, f->at, "%s; write it by %s(FILE, %snumpy.asarray(A, dtype=float))", found,
+                f->array == NULL ? "numpy.save" : "numpy.savez", f->array == NULL ? "" : "NAME=");
+}
+
+static size_t take(npy *f, void *to, size_t bytes)
+{
+    return f->array != NULL ? zip_member_read(&f->member, to, bytes) : fread(to, 1, bytes, f->file);
+}
+
+/* What stands where bytes are missing. */
+static imp_code refuse_end(const npy *f, const char *where)
+{
+    if (f->array == NULL) return refuse(f, where);
+    if (f->member.lacks_memory) return error_set_memory(f->error);
+    return refuse(f, "it is damaged");
 }
 
 /* --- The head --------------------------------------------------------------------------------- */
 
-static const char *skip(const char *at) { return at + strspn(at, " \t\r\n"); }
-
-/* Reads a text in quotes, without escapes. NULL: there is none. */
-static const char *read_quoted(const char *at, char *to, size_t size)
+static imp_code read_text(npy *f, size_t length)
 {
-    const char quote = *at;
-    if (quote != '\'' && quote != '"') return NULL;
-    const char *end = strchr(at + 1, quote);
-    if (end == NULL || (size_t)(end - at) > size) return NULL;
-    memcpy(to, at + 1, (size_t)(end - at) - 1);
-    to[end - at - 1] = '\0';
-    return end + 1;
-}
-
-/* Reads '<f8' and the like. */
-static const char *read_descr(npy *f, const char *at)
-{
-    char text[16];
-    at = read_quoted(at, text, sizeof text);
-    if (at == NULL || strlen(text) != 3 || strchr("<>|=", text[0]) == NULL) return NULL;
-    const bool is_byte = text[2] == '1';
-    f->is_big_endian = text[0] == '>' || (text[0] == '=' && __BYTE_ORDER__ == __ORDER_BIG_ENDIAN__);
-    f->kind = text[1];
-    f->width = (size_t)(text[2] - '0');
-    const bool known = f->kind == 'f' ? f->width == 4 || f->width == 8
-                       : f->kind == 'b'
-                           ? is_byte
-                           : (f->kind == 'i' || f->kind == 'u') && strchr("1248", text[2]) != NULL;
-    return known && (is_byte || text[0] != '|') ? at : NULL;
-}
-
-static const char *read_truth(npy *f, const char *at)
-{
-    f->is_columns_first = strncmp(at, "True", 4) == 0;
-    if (f->is_columns_first) return at + 4;
-    return strncmp(at, "False", 5) == 0 ? at + 5 : NULL;
-}
-
-/* Reads (16, 3), (5,) or (). NULL: it is no shape. Of one of more dimensions than any row has, only
- * the rank is kept. */
-static const char *read_shape(npy *f, const char *at)
-{
-    if (*at != '(') return NULL;
-    at = skip(at + 1);
-    for (f->rank = 0; *at != ')'; ++f->rank) {
-        size_t extent = 0, digits = 0;
-        for (; *at >= '0' && *at <= '9'; ++at, ++digits)
-            if (__builtin_mul_overflow(extent, (size_t)10, &extent) ||
-                __builtin_add_overflow(extent, (size_t)(*at - '0'), &extent))
-                return NULL;
-        if (digits == 0) return NULL;
-        if (f->rank < IMP_RANK_MAX) f->extent[f->rank] = extent;
-        at = skip(*at == 'L' ? at + 1 : at); /* as Python 2 wrote it */
-        if (*at == ',')
-            at = skip(at + 1);
-        else if (*at != ')')
-            return NULL;
+    if (length > NPY_HEAD_MOST) return refuse(f, "its head is longer than that of numbers");
+    char *text = malloc(length + 1);
+    if (text == NULL) return error_set_memory(f->error);
+    text[length] = '\0';
+    imp_code code = IMP_SUCCESS;
+    if (take(f, text, length) != length)
+        code = refuse_end(f, "it ends within its head");
+    else {
+        const char *wrong = npy_head_read(&f->head, text);
+        if (wrong != NULL) code = refuse(f, wrong);
     }
-    return at + 1;
-}
-
-enum { DESCR = 1, ORDER = 2, SHAPE = 4, ALL = 7 };
-
-/* Reads the three entries, in any order. */
-static imp_code read_head(npy *f, const char *at)
-{
-    unsigned seen = 0;
-    at = skip(at);
-    if (*at != '{') return refuse(f, "its head is no dictionary");
-    for (at = skip(at + 1); *at != '}';) {
-        char key[32];
-        unsigned which = 0;
-        at = read_quoted(at, key, sizeof key);
-        if (at != NULL) at = skip(at);
-        if (at == NULL || *at != ':') return refuse(f, "its head is no dictionary");
-        at = skip(at + 1);
-        if (strcmp(key, "descr") == 0)
-            which = DESCR, at = read_descr(f, at);
-        else if (strcmp(key, "fortran_order") == 0)
-            which = ORDER, at = read_truth(f, at);
-        else if (strcmp(key, "shape") == 0)
-            which = SHAPE, at = read_shape(f, at);
-        if (which == 0 || (seen & which) != 0)
-            return refuse(f, "its head has an entry that is not known, or one twice");
-        if (at == NULL)
-            return refuse(f, which == DESCR ? "its numbers are none of float32, float64, integers "
-                                              "and booleans"
-                                            : "its head cannot be read");
-        seen |= which;
-        at = skip(at);
-        if (*at == ',')
-            at = skip(at + 1);
-        else if (*at != '}')
-            return refuse(f, "its head is no dictionary");
-    }
-    return seen == ALL ? IMP_SUCCESS : refuse(f, "its head lacks descr, fortran_order or shape");
+    free(text);
+    return code;
 }
 
 /* Reads what stands before the numbers; *numbers: where they begin. */
 static imp_code read_front(npy *f, uint64_t *numbers)
 {
-    unsigned char front[MAGIC_BYTES + 4];
-    const bool has_front = fread(front, 1, MAGIC_BYTES + 2, f->file) == MAGIC_BYTES + 2;
-    if (!has_front || memcmp(front, "\x93NUMPY", 6) != 0)
-        return refuse(f, "it is no file of NumPy's format (.npy)");
-    if (front[6] < 1 || front[6] > 3) return refuse(f, "its version is none of 1, 2 and 3");
-    const size_t more = front[6] == 1 ? 0 : 2;
-    size_t length = front[8] + 256u * front[9];
-    if (fread(front + MAGIC_BYTES + 2, 1, more, f->file) != more)
-        return refuse(f, "it ends within its head");
-    if (more > 0) length += ((size_t)front[10] << 16) + ((size_t)front[11] << 24);
-    if (length > HEAD_MOST) return refuse(f, "its head is longer than that of numbers");
-    char *head = malloc(length + 1);
-    if (head == NULL) return error_set_memory(f->error);
-    head[length] = '\0';
-    const imp_code code = fread(head, 1, length, f->file) == length
-                              ? read_head(f, head)
-                              : refuse(f, "it ends within its head");
-    free(head);
-    *numbers = MAGIC_BYTES + 2 + more + length;
-    return code;
+    unsigned char front[NPY_FRONT + 2] = {0};
+    const bool has_front = take(f, front, NPY_FRONT) == NPY_FRONT;
+    if (!has_front && f->array != NULL) return refuse_end(f, NULL);
+    const int more = has_front ? npy_length_bytes(front) : -1;
+    if (more == -1) return refuse(f, "it is no file of NumPy's format (.npy)");
+    if (more < 0) return refuse(f, "its version is none of 1, 2 and 3");
+    if (take(f, front + NPY_FRONT, (size_t)more) != (size_t)more)
+        return refuse_end(f, "it ends within its head");
+    const size_t length =
+        front[8] + 256u * front[9] + ((size_t)front[10] << 16) + ((size_t)front[11] << 24);
+    *numbers = NPY_FRONT + (uint64_t)more + length;
+    return read_text(f, length);
 }
 
 /* --- Its shape -------------------------------------------------------------------------------- */
@@ -177,9 +111,10 @@ static imp_code read_front(npy *f, uint64_t *numbers)
 static const char *shape_text(const npy *f, char text[100])
 {
     size_t used = (size_t)snprintf(text, 100, "(");
-    for (uint32_t k = 0; k < f->rank; ++k)
-        used += (size_t)snprintf(text + used, 100 - used, k > 0 ? ", %zu" : "%zu", f->extent[k]);
-    snprintf(text + used, 100 - used, f->rank == 1 ? ",)" : ")");
+    for (uint32_t k = 0; k < f->head.rank; ++k)
+        used +=
+            (size_t)snprintf(text + used, 100 - used, k > 0 ? ", %zu" : "%zu", f->head.extent[k]);
+    snprintf(text + used, 100 - used, f->head.rank == 1 ? ",)" : ")");
     return text;
 }
 
@@ -187,66 +122,40 @@ static imp_code check_shape(npy *f, uint64_t numbers)
 {
     const imp_parameter *row = f->row;
     char text[100];
-    bool fits = f->rank == row->rank;
+    bool fits = f->head.rank == row->rank;
     f->count = 1;
-    if (f->rank > IMP_RANK_MAX)
-        return place_error(f->at, f->error, IMP_ERROR_SCENE,
-                           "%.200s: it has %u dimensions, must be %s", f->path, f->rank,
-                           parameter_shape_words(row, 0).at);
-    for (uint32_t k = 0; fits && k < f->rank; ++k)
-        fits = f->extent[k] > 0 && (row->extent[k] == 0 || row->extent[k] == f->extent[k]) &&
-               !__builtin_mul_overflow(f->count, f->extent[k], &f->count);
+    if (f->head.rank > IMP_RANK_MAX)
+        return fail(f, f->at, "it has %u dimensions, must be %s", f->head.rank,
+                    parameter_shape_words(row, 0).at);
+    for (uint32_t k = 0; fits && k < f->head.rank; ++k)
+        fits = f->head.extent[k] > 0 &&
+               (row->extent[k] == 0 || row->extent[k] == f->head.extent[k]) &&
+               !__builtin_mul_overflow(f->count, f->head.extent[k], &f->count);
     if (!fits)
-        return place_error(f->at, f->error, IMP_ERROR_SCENE,
-                           "%.200s: its shape is %s, must be that of %s", f->path,
-                           shape_text(f, text), parameter_shape_words(row, 0).at);
+        return fail(f, f->at, "its shape is %s, must be that of %s", shape_text(f, text),
+                    parameter_shape_words(row, 0).at);
     const uint64_t there = f->size > numbers ? f->size - numbers : 0;
-    if (f->count > UINT64_MAX / f->width || f->count > SIZE_MAX / sizeof(double) ||
-        f->count * f->width != there)
-        return place_error(f->at, f->error, IMP_ERROR_SCENE,
-                           "%.200s: a shape of %s takes %zu numbers of %zu bytes, but the file has "
-                           "%llu bytes of them; write it again",
-                           f->path, shape_text(f, text), f->count, f->width,
-                           (unsigned long long)there);
+    if (f->count > UINT64_MAX / f->head.width || f->count > SIZE_MAX / sizeof(double) ||
+        f->count * f->head.width != there)
+        return fail(f, f->at,
+                    "a shape of %s takes %zu numbers of %zu bytes, but the file has %llu bytes of "
+                    "them; write it again",
+                    shape_text(f, text), f->count, f->head.width, (unsigned long long)there);
     return IMP_SUCCESS;
 }
 
 /* --- Its numbers ------------------------------------------------------------------------------ */
 
-/* Converts one number. Whole ones that no double holds become infinite, which no row allows. */
-static double number_of(const npy *f, const unsigned char *bytes)
-{
-    uint64_t bits = 0;
-    for (size_t k = 0; k < f->width; ++k)
-        bits |= (uint64_t)bytes[f->is_big_endian ? f->width - 1 - k : k] << (8 * k);
-    if (f->kind == 'f' && f->width == 8) {
-        double x;
-        memcpy(&x, &bits, sizeof x);
-        return x;
-    }
-    if (f->kind == 'f') {
-        const uint32_t half = (uint32_t)bits;
-        float x;
-        memcpy(&x, &half, sizeof x);
-        return (double)x;
-    }
-    const uint64_t sign = UINT64_C(1) << (8 * f->width - 1), exact = UINT64_C(1) << 53;
-    const bool is_below = f->kind == 'i' && (bits & sign) != 0;
-    const uint64_t magnitude = is_below ? (sign - (bits & (sign - 1))) : bits;
-    if (magnitude > exact) return INFINITY;
-    return is_below ? -(double)magnitude : (double)magnitude;
-}
-
 /* Returns the index in the value, which has rows first, of number k of the file. */
 static size_t place_of(const npy *f, size_t k)
 {
     size_t index[IMP_RANK_MAX], to = 0;
-    if (!f->is_columns_first) return k;
-    for (uint32_t j = 0; j < f->rank; ++j) {
-        index[j] = k % f->extent[j];
-        k /= f->extent[j];
+    if (!f->head.is_columns_first) return k;
+    for (uint32_t j = 0; j < f->head.rank; ++j) {
+        index[j] = k % f->head.extent[j];
+        k /= f->head.extent[j];
     }
-    for (uint32_t j = 0; j < f->rank; ++j) to = to * f->extent[j] + index[j];
+    for (uint32_t j = 0; j < f->head.rank; ++j) to = to * f->head.extent[j] + index[j];
     return to;
 }
 
@@ -256,17 +165,16 @@ static imp_code refuse_number(const npy *f, size_t to, double x)
     size_t index[IMP_RANK_MAX];
     place element[IMP_RANK_MAX];
     const place *at = f->at;
-    for (uint32_t j = f->rank; j-- > 0; to /= f->extent[j]) index[j] = to % f->extent[j];
-    for (uint32_t j = 0; j < f->rank; ++j) {
+    for (uint32_t j = f->head.rank; j-- > 0; to /= f->head.extent[j])
+        index[j] = to % f->head.extent[j];
+    for (uint32_t j = 0; j < f->head.rank; ++j) {
         element[j] = place_index(at, index[j]);
         at = &element[j];
     }
-    if (isinf(x) && f->kind != 'f')
-        return place_error(at, f->error, IMP_ERROR_SCENE,
-                           "%.200s: got a whole number beyond 2^53, must be %s", f->path,
-                           parameter_shape_words(f->row, f->rank).at);
-    return place_error(at, f->error, IMP_ERROR_SCENE, "%.200s: got %.17g, must be %s", f->path, x,
-                       parameter_shape_words(f->row, f->rank).at);
+    if (isinf(x) && f->head.kind != 'f')
+        return fail(f, at, "got a whole number beyond 2^53, must be %s",
+                    parameter_shape_words(f->row, f->head.rank).at);
+    return fail(f, at, "got %.17g, must be %s", x, parameter_shape_words(f->row, f->head.rank).at);
 }
 
 static bool is_allowed(const imp_parameter *row, double x)
@@ -274,24 +182,24 @@ static bool is_allowed(const imp_parameter *row, double x)
     return parameter_is_allowed(row, x) && (row->kind != IMP_KIND_BOOLEAN || x == 0 || x == 1);
 }
 
-static imp_code read_numbers(const npy *f, double *number)
+static imp_code read_numbers(npy *f, double *number)
 {
     unsigned char bytes[PIECE * sizeof(double)];
     for (size_t k = 0; k < f->count;) {
         const size_t rest = f->count - k, some = rest < PIECE ? rest : PIECE;
-        if (fread(bytes, f->width, some, f->file) != some)
-            return refuse(f, "it ends within its numbers");
+        if (take(f, bytes, some * f->head.width) != some * f->head.width)
+            return refuse_end(f, "it ends within its numbers");
         for (size_t i = 0; i < some; ++i, ++k) {
-            const double x = number_of(f, bytes + i * f->width);
+            const double x = npy_number(&f->head, bytes + i * f->head.width);
             const size_t to = place_of(f, k);
             if (!is_allowed(f->row, x)) return refuse_number(f, to, x);
             number[to] = x;
         }
     }
-    return IMP_SUCCESS;
+    return f->array == NULL || zip_member_ends_well(&f->member) ? IMP_SUCCESS : refuse_end(f, NULL);
 }
 
-static imp_code take_numbers(const npy *f, const array_file_limit *limit, imp_value *value)
+static imp_code take_numbers(npy *f, const array_file_limit *limit, imp_value *value)
 {
     const uint64_t bytes = f->size + f->count * sizeof(double);
     if (limit != NULL && !limit->allows(limit->context, limit->held + bytes))
@@ -304,7 +212,8 @@ static imp_code take_numbers(const npy *f, const array_file_limit *limit, imp_va
         return code;
     }
     *value = (imp_value){.count = f->count, .number = number};
-    for (uint32_t k = 0; k < IMP_RANK_MAX; ++k) value->extent[k] = k < f->rank ? f->extent[k] : 1;
+    for (uint32_t k = 0; k < IMP_RANK_MAX; ++k)
+        value->extent[k] = k < f->head.rank ? f->head.extent[k] : 1;
     return IMP_SUCCESS;
 }
 
@@ -317,13 +226,17 @@ bool array_file_is_asked(const imp_parameter *row, const json_t *json)
     return has_numbers && row->rank > 0 && json_object_get(json, "file") != NULL;
 }
 
-const char *array_file_name(const json_t *json, const place *at, imp_error *error)
+imp_code array_file_name(const json_t *json, const place *at, array_name *name, imp_error *error)
 {
-    const char *name = json_string_value(json_object_get(json, "file"));
-    if (name != NULL && name[0] != '\0' && json_object_size(json) == 1) return name;
-    place_error(at, error, IMP_ERROR_SCENE,
-                "got an object, must be an array, or {\"file\": NAME} of a .npy file");
-    return NULL;
+    const json_t *array = json_object_get(json, "array");
+    *name =
+        (array_name){json_string_value(json_object_get(json, "file")), json_string_value(array)};
+    const bool has_names = name->file != NULL && name->file[0] != '\0' &&
+                           (array == NULL || (name->array != NULL && name->array[0] != '\0'));
+    if (has_names && json_object_size(json) == (array != NULL ? 2 : 1)) return IMP_SUCCESS;
+    return place_error(at, error, IMP_ERROR_SCENE,
+                       "got an object, must be an array, or {\"file\": NAME} of a .npy file, or "
+                       "{\"file\": NAME, \"array\": NAME} of a .npz file");
 }
 
 static FILE *open_array(const char *path)
@@ -334,21 +247,59 @@ static FILE *open_array(const char *path)
     return opened;
 }
 
-imp_code array_file_read(const imp_parameter *row, const char *path, const array_file_limit *limit,
-                         const place *at, imp_value *value, uint64_t *bytes, imp_error *error)
+/* Reads the array from where the file stands. */
+static imp_code read_array(npy *f, const array_file_limit *limit, imp_value *value)
 {
-    npy f = {.row = row, .path = path, .at = at, .error = error, .file = open_array(path)};
-    struct stat facts;
     uint64_t numbers = 0;
+    imp_code code = read_front(f, &numbers);
+    if (code == IMP_SUCCESS) code = check_shape(f, numbers);
+    return code == IMP_SUCCESS ? take_numbers(f, limit, value) : code;
+}
+
+static imp_code read_member(npy *f, const array_file_limit *limit, imp_value *value)
+{
+    zip_fault fault = {""};
+    imp_code code = zip_member_open(&f->member, f->file, f->size, f->array, &fault);
+    if (code == IMP_ERROR_MEMORY) return error_set_memory(f->error);
+    if (code != IMP_SUCCESS) return fail(f, f->at, "%s", fault.text);
+    f->size = f->member.size;
+    code = read_array(f, limit, value);
+    zip_member_close(&f->member);
+    return code;
+}
+
+/* An archive has arrays with names, another file one without. */
+static imp_code read_either(npy *f, const array_file_limit *limit, imp_value *value)
+{
+    unsigned char front[4] = {0};
+    const bool is_archive = fread(front, 1, 4, f->file) == 4 && zip_begins_so(front);
+    rewind(f->file);
+    if (is_archive && f->array != NULL) return read_member(f, limit, value);
+    if (!is_archive && f->array == NULL) return read_array(f, limit, value);
+    f->array = NULL;
+    return fail(f, f->at,
+                is_archive ? "it is an archive (.npz); add \"array\": NAME of one of its arrays"
+                           : "it is no archive (.npz); leave out \"array\"");
+}
+
+imp_code array_file_read(const imp_parameter *row, const char *path, const char *array,
+                         const array_file_limit *limit, const place *at, imp_value *value,
+                         uint64_t *bytes, imp_error *error)
+{
+    npy f = {.row = row,
+             .path = path,
+             .array = array,
+             .at = at,
+             .error = error,
+             .file = open_array(path)};
+    struct stat facts;
     if (f.file == NULL)
         return place_error(at, error, IMP_ERROR_SCENE, "%.200s: %s", path, strerror(errno));
     imp_code code = IMP_SUCCESS;
     if (fstat(fileno(f.file), &facts) != 0 || !S_ISREG(facts.st_mode))
         code = refuse(&f, "it is no regular file");
     f.size = code == IMP_SUCCESS ? (uint64_t)facts.st_size : 0;
-    if (code == IMP_SUCCESS) code = read_front(&f, &numbers);
-    if (code == IMP_SUCCESS) code = check_shape(&f, numbers);
-    if (code == IMP_SUCCESS) code = take_numbers(&f, limit, value);
+    if (code == IMP_SUCCESS) code = read_either(&f, limit, value);
     fclose(f.file);
     *bytes = code == IMP_SUCCESS ? f.count * sizeof(double) : 0;
     return code;

@@ -7,18 +7,12 @@
 #include <pthread.h>
 #include <stdlib.h>
 #include <string.h>
-#include <sys/stat.h>
 #include <time.h>
 
+#include "core/base/file_state.h"
 #include "core/plugin/value_bytes.h"
 
 /* --- Keys ------------------------------------------------------------------------------------- */
-
-/* Which contents a file has. */
-typedef struct file_state {
-    uint64_t device, inode, size;
-    int64_t modified_s, modified_ns, changed_s, changed_ns;
-} file_state;
 
 /* Times of files come in steps of up to two seconds, by file system. */
 enum { SETTLED_SECONDS = 2 };
@@ -26,17 +20,9 @@ enum { SETTLED_SECONDS = 2 };
 /* False: it is no regular file, or changed a moment ago. */
 static bool read_state(const char *path, file_state *state)
 {
-    struct stat file;
     struct timespec now;
-    if (clock_gettime(CLOCK_REALTIME, &now) != 0 || stat(path, &file) != 0) return false;
-    *state = (file_state){.device = (uint64_t)file.st_dev,
-                          .inode = (uint64_t)file.st_ino,
-                          .size = (uint64_t)file.st_size,
-                          .modified_s = (int64_t)file.st_mtim.tv_sec,
-                          .modified_ns = (int64_t)file.st_mtim.tv_nsec,
-                          .changed_s = (int64_t)file.st_ctim.tv_sec,
-                          .changed_ns = (int64_t)file.st_ctim.tv_nsec};
-    return S_ISREG(file.st_mode) && file.st_ctim.tv_sec + SETTLED_SECONDS < now.tv_sec;
+    return clock_gettime(CLOCK_REALTIME, &now) == 0 && file_state_read(path, state) &&
+           state->changed_s + SETTLED_SECONDS < (int64_t)now.tv_sec;
 }
 
 static bool names_file(const parameter_table *table, const parameter_values *values, size_t k)

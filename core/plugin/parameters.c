@@ -118,16 +118,17 @@ static imp_code read_array_file(const imp_parameter *row, const json_t *json, co
                                 parameter_values *values, imp_value *value, imp_error *error)
 {
     uint64_t bytes = 0;
-    const char *name = array_file_name(json, at, error);
-    if (name == NULL) return IMP_ERROR_SCENE;
-    json_t *path = name_in_folder(folder, name);
-    if (values->files == NULL) values->files = json_array();
-    if (path == NULL || json_array_append_new(values->files, path) != 0)
+    array_name name;
+    const imp_code named = array_file_name(json, at, &name, error);
+    if (named != IMP_SUCCESS) return named;
+    json_t *path = name_in_folder(folder, name.file);
+    if (path == NULL || parameters_keep(values, path, NULL) != IMP_SUCCESS ||
+        !named_files_add(&values->files, json_string_value(path), folder))
         return error_set_memory(error);
     array_file_limit rest;
     if (limit != NULL) rest = *limit, rest.held += values->file_bytes, limit = &rest;
     const imp_code code =
-        array_file_read(row, json_string_value(path), limit, at, value, &bytes, error);
+        array_file_read(row, json_string_value(path), name.array, limit, at, value, &bytes, error);
     values->file_bytes += bytes;
     return code;
 }
@@ -200,7 +201,7 @@ void parameters_clear(parameter_values *values)
     }
     arena_store_free_room(values->store, values->value);
     json_decref(values->made);
-    json_decref(values->files);
+    named_files_clear(&values->files);
     *values = (parameter_values){.count = 0};
 }
 

@@ -6,6 +6,7 @@
 #include <jansson.h>
 
 #include "core/base/arena_store.h"
+#include "core/base/named_files.h"
 #include "core/base/place.h"
 #include "core/plugin/array_file.h"
 #include "core/plugin/parameter_table.h"
@@ -34,7 +35,7 @@ typedef struct parameter_values {
     double *room;        /* numbers of defaults, in the memory of `value`; NULL: none are there */
     size_t room_left;    /* numbers that still fit there */
     arena_store *store;  /* of that memory */
-    json_t *files;       /* paths of array files that were read; NULL: none */
+    named_files files;   /* array files that were read */
     uint64_t file_bytes; /* of their numbers */
     json_t *made; /* JSON that is not in the object: presets, names of files made whole; or NULL */
 } parameter_values;

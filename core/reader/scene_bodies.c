@@ -168,9 +168,9 @@ imp_code scene_bodies_copy(scene_bodies *b, const imp_scene *scene, const place 
     for (size_t g = 0; g < scene_group_count(scene) && code == IMP_SUCCESS; ++g)
         code = add_name(b, scene_group_name(scene, g), -1 - (json_int_t)g);
     if (code != IMP_SUCCESS) return code;
-    scene_files *files = scene_files_of(b->assembly.scene);
+    named_files *files = scene_files_of(b->assembly.scene);
     return keep(b, scene_copy_relations(scene, b->assembly.scene) == IMP_SUCCESS &&
-                       scene_files_copy(scene_files_named(scene), files));
+                       named_files_copy(scene_files_named(scene), files));
 }
 
 /* --- Parents ---------------------------------------------------------------------------------- */

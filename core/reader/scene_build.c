@@ -117,7 +117,7 @@ static int goes_on(imp_create_error *why, uint64_t bytes)
 static int reads(imp_create_error *why, const char *path)
 {
     const scene_source *source = guarded_error_of(why)->source;
-    return path != NULL && scene_files_add(source->files, path, source->folder);
+    return path != NULL && named_files_add(source->files, path, source->folder);
 }
 
 static void guard(guarded_error *g, const scene_making *m)

@@ -11,7 +11,7 @@
 #include "core/plugin/registry.h"
 #include "core/plugin/type_view.h"
 #include "core/reader/reading_budget.h"
-#include "core/scene/scene_files.h"
+#include "core/base/named_files.h"
 #include "core/surface/surface.h"
 
 #include <impinge/examine.h>
@@ -27,7 +27,7 @@ typedef struct scene_source {
         *folder; /* of the scene file, with '/' at its end: where relative names of files begin;
                            NULL: where the process does */
     reading_budget *budget; /* NULL: no limits */
-    scene_files *files;     /* takes the files that values name; NULL: nobody */
+    named_files *files;     /* takes the files that values name; NULL: nobody */
     imp_scene *scene;       /* instances that it is rid of are refilled; NULL: all are new */
 } scene_source;
 

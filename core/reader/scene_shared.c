@@ -171,11 +171,9 @@ static bool note_files(const scene_source *source, const scene_making *m)
     for (size_t k = 0; k < m->values.count && source->files != NULL && kept; ++k) {
         const imp_value *v = &m->values.value[k];
         if (parameter_table_row(&m->view.table, k)->flags & IMP_PARAMETER_FILE && v->count > 0)
-            kept = scene_files_add(source->files, v->string[0], source->folder);
+            kept = named_files_add(source->files, v->string[0], source->folder);
     }
-    for (size_t k = 0; k < json_array_size(m->values.files) && source->files != NULL && kept; ++k)
-        kept = scene_files_add(source->files, json_string_value(json_array_get(m->values.files, k)),
-                               source->folder);
+    if (source->files != NULL && kept) kept = named_files_copy(&m->values.files, source->files);
     return kept;
 }
 

@@ -6,8 +6,8 @@
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
-#include <sys/stat.h>
 
+#include "core/base/file_state.h"
 #include "core/base/status.h"
 #include "core/common/array.h"
 #include "core/common/sha256.h"
@@ -84,7 +84,7 @@ static imp_code put_types(const imp_scene *scene, FILE *to, imp_error *error)
 
 static int compare_paths(const void *x, const void *y)
 {
-    return strcmp(((const scene_file *)x)->path, ((const scene_file *)y)->path);
+    return strcmp(((const named_file *)x)->path, ((const named_file *)y)->path);
 }
 
 /* Writes a name; bytes that are no printable ASCII, and %, as % and two digits. */
@@ -97,25 +97,31 @@ static void put_name(const char *name, FILE *to)
             fputc(*c, to);
 }
 
-static bool is_regular(const char *path)
+/* Writes the hash of a file that the scene was made of. False: it cannot be read again, or it is
+ * not what it was: a file that is replaced by another keeps none of its times. */
+static bool hash_again(const named_file *file, char hash[SHA256_TEXT])
 {
-    struct stat file;
-    return stat(path, &file) == 0 && S_ISREG(file.st_mode);
+    file_state now;
+    return file_state_read(file->path, &now) && sha256_file(file->path, hash) &&
+           file_state_read(file->path, &now) && memcmp(&now, &file->state, sizeof now) == 0;
 }
 
 /* Writes a line for each file, by path, once. */
-static imp_code put_files(const scene_files *files, FILE *to, imp_error *error)
+static imp_code put_files(const named_files *files, FILE *to, imp_error *error)
 {
     if (files->count == 0) return IMP_SUCCESS;
-    scene_file *sorted = malloc(files->count * sizeof *sorted);
+    named_file *sorted = malloc(files->count * sizeof *sorted);
     if (sorted == NULL) return error_set_memory(error);
     memcpy(sorted, files->at, files->count * sizeof *sorted);
     qsort(sorted, files->count, sizeof *sorted, compare_paths);
-    for (size_t k = 0; k < files->count; ++k) {
+    for (size_t k = 0, next; k < files->count; k = next) {
         char hash[SHA256_TEXT];
-        if (k > 0 && strcmp(sorted[k].path, sorted[k - 1].path) == 0) continue;
-        const bool is_read = is_regular(sorted[k].path) && sha256_file(sorted[k].path, hash);
-        fprintf(to, "file %s ", is_read ? hash : "-");
+        bool is_known = hash_again(&sorted[k], hash);
+        for (next = k + 1; next < files->count && compare_paths(&sorted[k], &sorted[next]) == 0;
+             ++next)
+            if (memcmp(&sorted[k].state, &sorted[next].state, sizeof sorted->state) != 0)
+                is_known = false; /* it changed while the scene was read */
+        fprintf(to, "file %s ", is_known ? hash : "-");
         put_name(sorted[k].name, to);
         fputc('\n', to);
     }

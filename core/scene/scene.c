@@ -47,7 +47,7 @@ static void free_all(imp_scene *scene)
     free(scene->bodies);
     scene_free_spares(scene);
     scene_remarks_clear(&scene->remarks);
-    scene_files_clear(&scene->files);
+    named_files_clear(&scene->files);
     key_pairs_clear(&scene->ignored);
     scene_parameters_clear(&scene->parameters);
     free(scene);
@@ -101,8 +101,8 @@ void scene_set_registry(imp_scene *scene, const imp_registry *registry)
 
 const imp_registry *scene_registry(const imp_scene *scene) { return scene->registry; }
 
-scene_files *scene_files_of(imp_scene *scene) { return &scene->files; }
-const scene_files *scene_files_named(const imp_scene *scene) { return &scene->files; }
+named_files *scene_files_of(imp_scene *scene) { return &scene->files; }
+const named_files *scene_files_named(const imp_scene *scene) { return &scene->files; }
 
 imp_code scene_add_layout(imp_scene *scene)
 {

@@ -4,8 +4,8 @@
 #define CORE_SCENE_SCENE_H
 
 #include "core/base/arena_store.h"
+#include "core/base/named_files.h"
 #include "core/scene/key_pairs.h"
-#include "core/scene/scene_files.h"
 #include "core/scene/scene_parameters.h"
 #include "core/surface/surface.h"
 
@@ -34,8 +34,8 @@ const imp_registry *scene_registry(const imp_scene *scene);
 
 /* The files that the values of its instances name, some of them more than once; those of values
  * that were changed since (imp_scene_set_values), too. */
-scene_files *scene_files_of(imp_scene *scene);
-const scene_files *scene_files_named(const imp_scene *scene);
+named_files *scene_files_of(imp_scene *scene);
+const named_files *scene_files_named(const imp_scene *scene);
 
 /* Makes room for what scene_set_maps notes. IMP_ERROR_MEMORY, or IMP_SUCCESS. */
 imp_code scene_add_layout(imp_scene *scene);

@@ -58,7 +58,7 @@ struct imp_scene {
     uint64_t bytes;      /* 0: not complete: then without instances */
     double t_from, t_to; /* when all surfaces are defined; not known yet: never */
     scene_remarks remarks;
-    scene_files files;
+    named_files files;
     arena_store *store;           /* of blocks for trees; not its own; NULL: the heap */
     scene_layout *layout;         /* of each body; NULL: the scene is not changed */
     const imp_registry *registry; /* whose types its instances are of; NULL: it has no layout */

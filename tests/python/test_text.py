@@ -74,14 +74,38 @@ def test_relative_files_of_a_text_begin_at_the_folder_of_its_name(tmp_path, monk
 
 
 def test_arrays_of_numpy_begin_at_the_folder_of_the_text(tmp_path, monkeypatch):
-    numpy.save(tmp_path / "points.npy", numpy.eye(4, 3))
-    (tmp_path / "scene.json").write_text(
-        '{"bodies": [{"surfaces": [{"type": "bezier", "degree": [1, 1], "points": {"file": "points.npy"}}]},'
-        ' {"surfaces": [{"type": "sphere", "center": [3, 0, 0]}]}]}')
-    scene = impinge.Scene.from_file(tmp_path / "scene.json")
-    monkeypatch.chdir("/")
-    assert answer(impinge.Scene.from_json(scene.to_json())) == answer(scene)
-    assert answer(pickle.loads(pickle.dumps(scene))) == answer(scene)
+    points = numpy.eye(4, 3)
+    numpy.save(tmp_path / "points.npy", points)
+    numpy.savez(tmp_path / "nets.npz", other=numpy.ones(3), points=points)
+    answers = []
+    for points in ('{"file": "points.npy"}', '{"file": "nets.npz", "array": "points"}'):
+        (tmp_path / "scene.json").write_text(
+            '{"bodies": [{"surfaces": [{"type": "bezier", "degree": [1, 1], "points": ' + points + '}]},'
+            ' {"surfaces": [{"type": "sphere", "center": [3, 0, 0]}]}]}')
+        scene = impinge.Scene.from_file(tmp_path / "scene.json")
+        monkeypatch.chdir("/")
+        answers.append(answer(scene))
+        assert answer(impinge.Scene.from_json(scene.to_json())) == answers[0]
+        assert answer(pickle.loads(pickle.dumps(scene))) == answers[0]
+    assert answers[0] == answers[1]
+
+
+def test_compressed_arrays_of_numpy_are_read_or_refused_with_the_cure(tmp_path):
+    points = numpy.random.default_rng(7).random((3000, 3))
+    points[:, 2] = numpy.round(points[:, 2])
+    numpy.savez_compressed(tmp_path / "nets.npz", points=points)
+    mesh = {"type": "mesh", "faces": [[0, 1, 2], [7, 2000, 2999]]}
+    sphere = {"surfaces": [{"type": "sphere", "radius": 0.01, "center": [2, 2, 2]}]}
+
+    def scene(given) -> impinge.Scene:
+        body = {"surfaces": [{**mesh, "points": given}]}
+        return impinge.Scene.from_json(json.dumps({"bodies": [body, sphere]}))
+
+    packed = {"file": str(tmp_path / "nets.npz"), "array": "points"}
+    try:
+        assert answer(scene(packed)) == answer(scene(points.tolist()))
+    except impinge.SceneError as error:
+        assert "write it by numpy.savez" in str(error)
 
 
 def everything(builder: impinge.Builder, offs: str) -> impinge.Scene:

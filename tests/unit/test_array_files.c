@@ -151,8 +151,9 @@ START_TEST(other_files_are_refused_with_the_reason)
         {{.shape = "(3, 0)"}, "its shape is (3, 0), must be"},
         {{.shape = "(3, 4)"}, "its shape is (3, 4), must be"},
         {{.shape = "(3, 3, 3, 3)"}, "it has 4 dimensions, must be"},
-        {{.shape = "(99999999999999999999, 3)"}, "its head cannot be read"},
-        {{.shape = "(-3, 3)"}, "its head cannot be read"},
+        {{.shape = "(99999999999999999999, 3)"}, "its shape cannot be read"},
+        {{.shape = "(1152921504606846976, 3)"}, "its shape is (1152921504606846976, 3), must"},
+        {{.shape = "(-3, 3)"}, "its shape cannot be read"},
         {{.length = -8}, "takes 9 numbers of 8 bytes, but the file has 64 bytes"},
         {{.length = 8}, "takes 9 numbers of 8 bytes, but the file has 80 bytes"},
         {{.version = 4}, "its version is none of 1, 2 and 3"},
@@ -162,7 +163,7 @@ START_TEST(other_files_are_refused_with_the_reason)
         {{.head = "{'other': 1}"}, "an entry that is not known"},
         {{.head = "{'descr"}, "is no dictionary"},
         {{.head = ""}, "is no dictionary"},
-        {{.head = "{'descr': '<f8', 'shape': (3, 3"}, "its head cannot be read"},
+        {{.head = "{'descr': '<f8', 'shape': (3, 3"}, "its shape cannot be read"},
     };
     for (size_t k = 0; k < sizeof all / sizeof *all; ++k) {
         write_file(&all[k].form, corners);

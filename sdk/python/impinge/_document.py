@@ -69,8 +69,8 @@ def resolve_stage(type_name: str, parameters: Dict[str, Any], folder: str) -> No
     for name in Registry.files_of(type_name):
         if isinstance(parameters.get(name), str):
             parameters[name] = os.path.join(folder, parameters[name])
-    for value in parameters.values():  # an array of numbers in a file, {"file": NAME}
-        if isinstance(value, dict) and list(value) == ["file"] and isinstance(value["file"], str):
+    for value in parameters.values():  # an array of numbers in a file, {"file": NAME}, perhaps with "array": NAME
+        if isinstance(value, dict) and set(value) | {"array"} == {"file", "array"} and isinstance(value["file"], str):
             value["file"] = os.path.join(folder, value["file"])
 
 
