@@ -24,23 +24,55 @@ static const char *read_one(const imp_parameter *row, const char *at, double *x)
     return skip_blanks(end);
 }
 
-/* Reads `count` numbers between brackets. False: the text is something else. */
-static bool read_list(const imp_parameter *row, const char *at, size_t count, double *x)
+/* Reads [1, 2], at most `most` numbers. NULL: the text is something else. */
+static const char *read_row(const imp_parameter *row, const char *at, size_t most, double *x,
+                            size_t *count)
 {
-    at = skip_blanks(at);
-    for (size_t k = 0; k < count; ++k) {
-        if (*at != (k == 0 ? '[' : ',')) return false;
-        at = read_one(row, at + 1, &x[k]);
-        if (at == NULL) return false;
-    }
-    return *at == ']' && *skip_blanks(at + 1) == '\0';
+    *count = 0;
+    do {
+        if (*count == most || *at != (*count == 0 ? '[' : ',')) return NULL;
+        at = read_one(row, at + 1, &x[(*count)++]);
+        if (at == NULL) return NULL;
+    } while (*at != ']');
+    return skip_blanks(at + 1);
 }
 
-static void take(imp_value *value, size_t count)
+/* Reads [[1, 2], [3, 4]], rows of one length. */
+static const char *read_rows(const imp_parameter *row, const char *at, size_t most, double *x,
+                             size_t extent[2])
 {
-    value->count = count;
-    value->extent[0] = count;
-    for (uint32_t k = 1; k < IMP_RANK_MAX; ++k) value->extent[k] = 1;
+    size_t rows = 0;
+    do {
+        size_t length;
+        if (*at != (rows == 0 ? '[' : ',')) return NULL;
+        at = skip_blanks(at + 1);
+        at = read_row(row, at, most, x, &length);
+        if (at == NULL || (rows > 0 && length != extent[1])) return NULL;
+        extent[0] = ++rows, extent[1] = length;
+        x += length, most -= length;
+    } while (*at != ']');
+    return skip_blanks(at + 1);
+}
+
+/* Reads a number, a row or rows, as many numbers as the row allows. NULL: the text is something
+ * else. */
+static const char *read_array(const imp_parameter *row, const char *at, size_t most, double *x,
+                              size_t extent[2])
+{
+    extent[0] = extent[1] = 1;
+    at = skip_blanks(at);
+    if (row->rank == 2) return read_rows(row, at, most, x, extent);
+    const bool is_scalar = *at != '[' && (row->flags & IMP_PARAMETER_SCALAR_OK) != 0;
+    return row->rank == 0 || is_scalar ? read_one(row, at, x)
+                                       : read_row(row, at, most, x, &extent[0]);
+}
+
+static void take(imp_value *value, size_t rows, size_t columns)
+{
+    value->count = rows * columns;
+    value->extent[0] = rows;
+    value->extent[1] = columns;
+    for (uint32_t k = 2; k < IMP_RANK_MAX; ++k) value->extent[k] = 1;
 }
 
 static double *take_room(parameter_values *values, size_t count)
@@ -52,12 +84,13 @@ static double *take_room(parameter_values *values, size_t count)
 }
 
 /* Without memory the value stays without numbers, and has a count. */
-static bool take_numbers(parameter_values *values, imp_value *value, const double *x, size_t count)
+static bool take_numbers(parameter_values *values, imp_value *value, const double *x, size_t rows,
+                         size_t columns)
 {
-    double *number = take_room(values, count);
-    if (number != NULL) memcpy(number, x, count * sizeof *number);
+    double *number = take_room(values, rows * columns);
+    if (number != NULL) memcpy(number, x, rows * columns * sizeof *number);
     value->number = number;
-    take(value, count);
+    take(value, rows, columns);
     return true;
 }
 
@@ -65,14 +98,12 @@ static bool read_numbers(const imp_parameter *row, parameter_values *values, imp
 {
     enum { COUNT_MAX = 16 };
     double x[COUNT_MAX];
-    if (row->rank == 1) {
-        const size_t count = row->extent[0];
-        const bool fits = count > 0 && count <= COUNT_MAX;
-        return fits && read_list(row, row->default_value, count, x) &&
-               take_numbers(values, value, x, count);
-    }
-    const char *const rest = read_one(row, row->default_value, x);
-    return rest != NULL && *rest == '\0' && take_numbers(values, value, x, 1);
+    size_t extent[2];
+    const char *const rest = read_array(row, row->default_value, COUNT_MAX, x, extent);
+    bool fits = rest != NULL && *rest == '\0';
+    for (uint32_t k = 0; k < row->rank && fits; ++k)
+        fits = row->extent[k] == 0 || row->extent[k] == extent[k];
+    return fits && take_numbers(values, value, x, extent[0], extent[1]);
 }
 
 static bool read_boolean(const imp_parameter *row, parameter_values *values, imp_value *value)
@@ -80,7 +111,7 @@ static bool read_boolean(const imp_parameter *row, parameter_values *values, imp
     const bool is_true = strcmp(row->default_value, "true") == 0;
     const double x = is_true;
     if (!is_true && strcmp(row->default_value, "false") != 0) return false;
-    return take_numbers(values, value, &x, 1);
+    return take_numbers(values, value, &x, 1, 1);
 }
 
 /* Reads a string of ASCII without escapes. Its address and the string are one block. */
@@ -91,7 +122,7 @@ static bool read_string(const imp_parameter *row, parameter_values *values, imp_
     if (size < 2 || text[0] != '"' || text[size - 1] != '"') return false;
     for (size_t k = 1; k + 1 < size; ++k)
         if (text[k] < ' ' || text[k] == '"' || text[k] == '\\' || text[k] > '~') return false;
-    take(value, 1);
+    take(value, 1, 1);
     const size_t bytes = sizeof(char *) + size - 1, unit = sizeof(double);
     const char **string = (const char **)(void *)take_room(values, (bytes + unit - 1) / unit);
     value->string = string;
@@ -108,7 +139,7 @@ static bool read_plain(const imp_parameter *row, parameter_values *values, imp_v
     switch (row->kind) {
     case IMP_KIND_NUMBER:
     case IMP_KIND_INTEGER:
-        return row->rank <= 1 && read_numbers(row, values, value);
+        return row->rank <= 2 && read_numbers(row, values, value);
     case IMP_KIND_BOOLEAN:
         return row->rank == 0 && read_boolean(row, values, value);
     case IMP_KIND_STRING:

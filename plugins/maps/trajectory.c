@@ -112,8 +112,9 @@ static size_t set_rotations(trajectory_instance *s, const imp_value *values)
     return path->pieces;
 }
 
-static imp_status fill(trajectory_instance *s, const imp_value *values, imp_interval *key,
-                       imp_create_error *why)
+/* Sets the path of an instance that has its places; *key has room for all positions. */
+static imp_status set_path(trajectory_instance *s, const imp_value *values, imp_interval *key,
+                           imp_create_error *why)
 {
     const double *accelerations =
         imp_is_given(&values[ACCELERATIONS]) ? values[ACCELERATIONS].number : NULL;
@@ -144,28 +145,54 @@ static void keep_given(trajectory_instance *s, const imp_value *values, double *
     s->spins = keys_keep(&values[SPINS], &room);
 }
 
+/* Bytes behind the instance: the path and the turns; and the numbers as given, with the positions
+ * once more as intervals while the path is set. */
+typedef struct room {
+    size_t path, turns, numbers;
+} room;
+
+static room room_for(size_t keys)
+{
+    return (room){spline_bytes(SPLINE_CUBIC, keys, 3, 2), keys * sizeof(spin_turn),
+                  13 * keys * sizeof(double) + 3 * keys * sizeof(imp_interval)};
+}
+
+/* Fills an instance that has room for as many keys as the checked values. */
+static imp_status fill(trajectory_instance *s, const imp_value *values, imp_create_error *why)
+{
+    const size_t keys = values[TIMES].count;
+    const room r = room_for(keys);
+    const bool turns = imp_is_given(&values[ROTATIONS]);
+    char *const turn = (char *)s->memory + r.path;
+    imp_interval *const key = (imp_interval *)(void *)(turn + r.turns);
+    s->path = spline_place(SPLINE_CUBIC, keys, 3, turns ? 2 : 0, s->memory);
+    s->path.kinked = true;
+    s->rotation = turns ? (spin_turn *)(void *)turn : NULL;
+    keep_given(s, values, (double *)(void *)(key + 3 * keys));
+    return set_path(s, values, key, why);
+}
+
 static imp_status trajectory_create(const imp_value *values, void **self, imp_create_error *why)
 {
     imp_status status = check(values, why);
     if (status != IMP_STATUS_OK) return status;
-    const size_t keys = values[TIMES].count, bytes = spline_bytes(SPLINE_CUBIC, keys, 3, 2);
-    const bool turns = imp_is_given(&values[ROTATIONS]);
-    const size_t turn_bytes = keys * sizeof(spin_turn);
-    trajectory_instance *s = malloc(sizeof *s + bytes + turn_bytes + 13 * keys * sizeof(double));
-    imp_interval *key = malloc(3 * keys * sizeof *key);
-    if (s != NULL && key != NULL) {
-        s->path = spline_place(SPLINE_CUBIC, keys, 3, turns ? 2 : 0, s->memory);
-        s->path.kinked = true;
-        s->rotation = turns ? (spin_turn *)((char *)s->memory + bytes) : NULL;
-        keep_given(s, values, (double *)(void *)((char *)s->memory + bytes + turn_bytes));
-        status = fill(s, values, key, why);
+    const room r = room_for(values[TIMES].count);
+    trajectory_instance *s = malloc(sizeof *s + r.path + r.turns + r.numbers);
+    if (s == NULL) return IMP_STATUS_INTERNAL;
+    status = fill(s, values, why);
+    if (status == IMP_STATUS_OK)
         *self = s;
-    } else {
-        status = IMP_STATUS_INTERNAL;
-    }
-    free(key);
-    if (status != IMP_STATUS_OK) free(s);
+    else
+        free(s);
     return status;
+}
+
+static imp_status trajectory_renew(void *self, const imp_value *values, imp_create_error *why)
+{
+    trajectory_instance *s = self;
+    const imp_status status = check(values, why);
+    if (status != IMP_STATUS_OK) return status;
+    return values[TIMES].count == s->path.pieces + 1 ? fill(s, values, why) : IMP_STATUS_UNBOUNDED;
 }
 
 /* --- The map ---------------------------------------------------------------------------------- */
@@ -283,6 +310,7 @@ static imp_status trajectory_write_formula(const void *self, const imp_text_sink
 
 static const imp_map_type trajectory = {
     IMP_MAP_FIELDS(trajectory, trajectory),
+    .renew = trajectory_renew,
     .rigid = trajectory_rigid,
     .write_formula = trajectory_write_formula,
     .summary = "moves along parabolas and turns at constant spin, from key to key",

@@ -20,8 +20,10 @@ static imp_status take_points(const imp_value *values, triangles *to, imp_create
 
 static imp_status take_faces(const imp_value *values, triangles *to, imp_create_error *why)
 {
+    enum { FEW = 16 };
+    int64_t few[FEW];
     const size_t corners = values[MESH_FACES].extent[1];
-    int64_t *corner = malloc(corners * sizeof *corner);
+    int64_t *corner = corners <= FEW ? few : malloc(corners * sizeof *corner);
     imp_status status = corner != NULL ? IMP_STATUS_OK : IMP_STATUS_INTERNAL;
     for (size_t k = 0; status == IMP_STATUS_OK && k < values[MESH_FACES].extent[0]; ++k) {
         triangles_fault fault = {0, "", 0};
@@ -31,7 +33,7 @@ static imp_status take_faces(const imp_value *values, triangles *to, imp_create_
         if (status == IMP_STATUS_PARAMETER)
             imp_reject(why, MESH_FACES, (int64_t)k, "%s", fault.text);
     }
-    free(corner);
+    if (corner != few) free(corner);
     return status;
 }
 
@@ -101,12 +103,11 @@ imp_status mesh_take_velocities(const imp_value *values, size_t points, double *
                                 imp_create_error *why)
 {
     const imp_value *v = &values[MESH_VELOCITIES];
-    *velocity = NULL;
     if (!imp_is_given(v)) return IMP_STATUS_OK;
     if (v->extent[0] != points)
         return imp_reject(why, MESH_VELOCITIES, -1, "%zu velocities for %zu points; give each one",
                           v->extent[0], points);
-    *velocity = malloc(v->count * sizeof **velocity);
+    if (*velocity == NULL) *velocity = malloc(v->count * sizeof **velocity);
     if (*velocity == NULL) return IMP_STATUS_INTERNAL;
     memcpy(*velocity, v->number, v->count * sizeof **velocity);
     return IMP_STATUS_OK;

@@ -30,7 +30,8 @@ enum { MESH_FILE, MESH_POINTS, MESH_FACES, MESH_VELOCITIES, MESH_SCALE, MESH_ROW
  * becomes a note. */
 imp_status mesh_take_shape(const imp_value *values, triangles *to, imp_create_error *why);
 
-/* The velocities of that many points, for free(); NULL: they are at rest. */
+/* Takes the velocities of that many points, for free(), into *velocity, which is NULL or has room
+ * for them; it stays NULL if they are at rest. */
 imp_status mesh_take_velocities(const imp_value *values, size_t points, double **velocity,
                                 imp_create_error *why);
 

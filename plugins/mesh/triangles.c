@@ -15,6 +15,27 @@ void triangles_clear(triangles *t)
     *t = (triangles){0};
 }
 
+void triangles_empty(triangles *t)
+{
+    const triangles kept = *t;
+    *t = (triangles){.point = kept.point,
+                     .point_capacity = kept.point_capacity,
+                     .corner = kept.corner,
+                     .capacity = kept.capacity,
+                     .keeps_faces = kept.keeps_faces,
+                     .first = kept.first,
+                     .first_capacity = kept.first_capacity};
+}
+
+void triangles_fit(triangles *t)
+{
+    if (t->keeps_faces || t->count == 0) return;
+    uint32_t *fitted = realloc(t->corner, 3 * t->count * sizeof *fitted);
+    if (fitted == NULL) return;
+    t->corner = fitted;
+    t->capacity = t->count;
+}
+
 imp_status triangles_refuse(triangles_fault *fault, size_t line, const char *format, ...)
 {
     va_list arguments;

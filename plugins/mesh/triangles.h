@@ -36,6 +36,12 @@ typedef struct triangles {
 
 void triangles_clear(triangles *t);
 
+/* Takes all out and keeps the memory, for as many others. */
+void triangles_empty(triangles *t);
+
+/* Gives back memory that triangles in use do not need. */
+void triangles_fit(triangles *t);
+
 /* What is wrong with a face, or with a text, and where. */
 typedef struct triangles_fault {
     size_t line; /* from 1; 0: not in a line */

@@ -21,10 +21,10 @@ static const imp_parameter parameters[] = {
 
 typedef struct mesh mesh;
 
-/* What all callbacks but create, destroy and those for pieces get as `self`. */
+/* What all callbacks but create, renew, destroy and those for pieces get as `self`. Its place in
+ * the list of pieces says which triangle it is. */
 typedef struct piece {
     const mesh *of;
-    uint32_t corner[3];
 } piece;
 
 struct mesh {
@@ -50,15 +50,11 @@ static imp_status make_pieces(mesh *m, imp_create_error *why)
     const size_t of_points = 3 * m->triangles.point_count * sizeof *m->triangles.point;
     const size_t of_piece = sizeof *m->pieces + 3 * sizeof *m->triangles.corner;
     if (!imp_goes_on(why, of_points + m->triangles.count * of_piece)) return IMP_STATUS_INTERNAL;
+    triangles_fit(&m->triangles);
     m->pieces = malloc(m->triangles.count * sizeof *m->pieces);
     if (m->pieces == NULL) return IMP_STATUS_INTERNAL;
-    for (size_t k = 0; k < m->triangles.count; ++k) {
-        m->pieces[k].of = m;
-        memcpy(m->pieces[k].corner, m->triangles.corner + 3 * k, sizeof m->pieces[k].corner);
-    }
+    for (size_t k = 0; k < m->triangles.count; ++k) m->pieces[k].of = m;
     m->first = m->pieces[0];
-    free(m->triangles.corner);
-    m->triangles.corner = NULL;
     return IMP_STATUS_OK;
 }
 
@@ -74,6 +70,23 @@ static imp_status mesh_create(const imp_value *values, void **self, imp_create_e
         *self = m;
     else
         mesh_destroy(m);
+    return status;
+}
+
+/* Refills a mesh with as many points and triangles. Those of a file are left to create. */
+static imp_status mesh_renew(void *self, const imp_value *values, imp_create_error *why)
+{
+    mesh *m = self;
+    triangles *const t = &m->triangles;
+    const size_t points = t->point_count, count = t->count;
+    const bool moves = imp_is_given(&values[MESH_VELOCITIES]);
+    if (imp_is_given(&values[MESH_FILE]) || moves != (m->velocity != NULL) ||
+        values[MESH_POINTS].extent[0] != points)
+        return IMP_STATUS_UNBOUNDED;
+    triangles_empty(t);
+    imp_status status = mesh_take_shape(values, t, why);
+    if (status == IMP_STATUS_OK) status = mesh_take_velocities(values, points, &m->velocity, why);
+    if (status == IMP_STATUS_OK && t->count != count) status = IMP_STATUS_UNBOUNDED;
     return status;
 }
 
@@ -97,12 +110,19 @@ static void set_corners(double term[LINEAR_TERMS][4], const double *list, const 
     }
 }
 
+static const uint32_t *corners_of(const piece *p)
+{
+    const mesh *m = p->of;
+    return m->triangles.corner + (p == &m->first ? 0 : 3 * (p - m->pieces));
+}
+
 static linear triangle_of(const void *self)
 {
     const piece *p = self;
+    const uint32_t *const corner = corners_of(p);
     linear f = {.depends = {0, 0, 0, 0}};
-    set_corners(f.still, p->of->triangles.point, p->corner);
-    if (p->of->velocity != NULL) set_corners(f.motion, p->of->velocity, p->corner);
+    set_corners(f.still, p->of->triangles.point, corner);
+    if (p->of->velocity != NULL) set_corners(f.motion, p->of->velocity, corner);
     linear_finish(&f);
     return f;
 }
@@ -148,8 +168,8 @@ static void define_corners(const imp_text_sink *to, const char *name, const doub
 static imp_status mesh_write_formula(const void *self, const imp_text_sink *to)
 {
     const piece *p = self;
-    define_corners(to, "p", p->of->triangles.point, p->corner);
-    if (p->of->velocity != NULL) define_corners(to, "w", p->of->velocity, p->corner);
+    define_corners(to, "p", p->of->triangles.point, corners_of(p));
+    if (p->of->velocity != NULL) define_corners(to, "w", p->of->velocity, corners_of(p));
     imp_add_text(to, p->of->velocity != NULL
                          ? "u in [0, 1]; v in [0, 1]; (1 - u)*(p0 + w0*t) + u*((1 - v)*(p3 + "
                            "w3*t) + v*(p6 + w6*t)); (1 - u)*(p1 + w1*t) + u*((1 - v)*(p4 + "
@@ -170,6 +190,7 @@ static const imp_surface_type mesh_type = {
     .piece_count = mesh_piece_count,
     .piece = mesh_piece,
     .write_formula = mesh_write_formula,
+    .renew = mesh_renew,
     .summary = "triangles and polygons from a file or a list, whose points may move linearly",
     .equation = "each triangle: p_0(t) + u (p_1(t) - p_0(t) + v (p_2(t) - p_1(t))), p_k(t) = "
                 "scale points_k + t velocities_k, u and v in [0,1]",

@@ -25,7 +25,7 @@ static void good(imp_code code)
 
 /* --- Two bodies ------------------------------------------------------------------------------- */
 
-enum { NUMBERS_MAX = 64, WAYS = 11 };
+enum { NUMBERS_MAX = 64, STEADY = 13, WAYS = STEADY + 1 }; /* the last one allocates */
 
 /* A type whose arguments change, and what meets it. */
 typedef struct way {
@@ -62,10 +62,25 @@ static way nurbs_of_16(void)
     way w = patch_of_16();
     w.type = "nurbs";
     w.other = "triangle points=[[1.3,1.4,1.5],[1.7,1.5,1.6],[1.5,1.8,1.7]]";
-    w.fixed = imp_argument_rows("knots", knots[0], 2, 7); /* the default is text that is read */
+    w.fixed = (imp_argument){.name = NULL};
     for (int k = 0; k < 16; ++k)
         for (int i = 0; i < 2; ++i) w.number[3 * k + i] *= 3;
     return w;
+}
+
+/* Four points, whose faces are triangles, or a polygon and one that is not plane. */
+static const double corner_triangles[4][3] = {{0, 2, 1}, {0, 1, 3}, {0, 3, 2}, {1, 2, 3}};
+static const double corner_polygons[2][4] = {{0, 1, 2, 3}, {0, 2, 1, 3}};
+
+static way mesh_of(imp_argument faces)
+{
+    return (way){.type = "mesh",
+                 .other = "sphere radius=0.5 center=3,0.2,0.1",
+                 .fixed = faces,
+                 .name = "points",
+                 .rank = 2,
+                 .extent = {4, 3},
+                 .number = {0, -1, -1, 0, 1, -1, 0, 0, 1, 1, 0.1, 0.2}};
 }
 
 static const way *list_ways(void)
@@ -104,8 +119,12 @@ static const way *list_ways(void)
                    .rank = 1,
                    .extent = {3},
                    .number = {1, 0.5, 0.7}};
+    all[10] = mesh_of(imp_argument_rows("faces", corner_triangles[0], 4, 3));
+    all[STEADY] = mesh_of(imp_argument_rows("faces", corner_polygons[0], 2, 4)); /* cut, by ears */
     for (int k = 1; k < WAYS; ++k) all[k].moves[0] = -4;
-    all[10] = nurbs_of_16();
+    all[11] = nurbs_of_16();
+    all[12] = nurbs_of_16();
+    all[12].fixed = imp_argument_rows("knots", knots[0], 2, 7);
     return all;
 }
 
@@ -199,7 +218,7 @@ START_TEST(a_step_of_a_simulation_allocates_nothing)
     uint64_t random = suite_seed();
     const way *all = list_ways();
     ck_assert(malloc_watch_begin());
-    for (int k = 0; k < WAYS; ++k) {
+    for (int k = 0; k < STEADY; ++k) {
         double numbers[NUMBERS_MAX], velocity[3] = {0};
         imp_scene *scene = build(&all[k], all[k].number, velocity);
         unsigned contacts = 0;
@@ -228,29 +247,40 @@ START_TEST(a_step_of_a_simulation_allocates_nothing)
 END_TEST
 
 /* A ball that goes through the positions of three keys, and turns. */
+typedef struct motion {
+    const char *first; /* its stage before the first change */
+    imp_argument fixed[3];
+    size_t count;
+} motion;
+
 static const double key_times[3] = {0, 0.5, 1};
 static const double key_turns[12] = {1, 0, 0, 0, 0.8, 0.6, 0, 0, 0.8, 0, 0.6, 0};
+static const double half_turns[12] = {1, 0, 0, 0, 0, 0, 0, 1, 1, 0, 0, 0};
+static const double key_spins[6] = {0, 0, 6.283185307179586, 0, 0, 6.283185307179586};
 
-static void change_keys(imp_scene *scene, const double *positions)
+static void change_keys(imp_scene *scene, const motion *m, const double *positions)
 {
-    const imp_argument keys[3] = {imp_argument_list("times", key_times, 3),
-                                  imp_argument_rows("positions", positions, 3, 3),
-                                  imp_argument_rows("rotations", key_turns, 3, 4)};
-    good(imp_scene_set_values(scene, 0, 0, 0, keys, 3, &error));
+    imp_argument keys[4] = {imp_argument_rows("positions", positions, 3, 3)};
+    for (size_t k = 0; k < m->count; ++k) keys[k + 1] = m->fixed[k];
+    good(imp_scene_set_values(scene, 0, 0, 0, keys, m->count + 1, &error));
 }
 
-START_TEST(keys_of_a_motion_change_without_an_allocation)
+static imp_scene *moving(const motion *m)
+{
+    char pipeline[300];
+    snprintf(pipeline, sizeof pipeline,
+             "ellipsoid radii=0.5,0.4,0.3 ! %s times=0,0.5,1 positions=[[0,0,0],[1,0,0],[2,0,0]]",
+             m->first);
+    imp_scene *scene =
+        imp_scene_from_pair(registry, pipeline, "sphere radius=0.5 center=3,0.1,0.1", &error);
+    ck_assert_msg(scene != NULL, "%s", error.text);
+    return scene;
+}
+
+static void check_motion(const motion *m)
 {
     uint64_t random = suite_seed();
-    imp_scene *scene[2];
-    for (int k = 0; k < 2; ++k) {
-        scene[k] = imp_scene_from_pair(registry,
-                                       "ellipsoid radii=0.5,0.4,0.3 ! keyframes times=0,0.5,1 "
-                                       "positions=[[0,0,0],[1,0,0],[2,0,0]] "
-                                       "rotations=[[1,0,0,0],[0.8,0.6,0,0],[0.8,0,0.6,0]]",
-                                       "sphere radius=0.5 center=3,0.1,0.1", &error);
-        ck_assert_msg(scene[k] != NULL, "%s", error.text);
-    }
+    imp_scene *const scene = moving(m);
     const uint64_t first = random;
     for (int step = 0; step < ROUNDS * STEPS; ++step) {
         double positions[9] = {0, 0, 0, 1, 0, 0, 2.5, 0, 0};
@@ -258,23 +288,37 @@ START_TEST(keys_of_a_motion_change_without_an_allocation)
         for (int i = 0; i < 9; ++i) positions[i] += random_between(&random, -0.1, 0.1);
         alloc_failure_begin(0);
         malloc_watch_start();
-        change_keys(scene[0], positions);
-        const imp_result result = answer_of(scene[0]);
-        const imp_clearance distance = distance_of(scene[0]);
+        change_keys(scene, m, positions);
+        const imp_result result = answer_of(scene);
+        const imp_clearance distance = distance_of(scene);
         const char *called = malloc_watch_stop();
         if (step >= WARM_UP * STEPS)
             ck_assert_msg(called == NULL && alloc_failure_calls() == 0,
-                          "step %d: %s, and core %zu times", step,
+                          "%s, step %d: %s, and core %zu times", m->first, step,
                           called != NULL ? called : "plugins: nothing", alloc_failure_calls());
         ck_assert(distance.lower <= distance.upper);
         ck_assert_int_eq(result.verdict, IMP_VERDICT_CONTACT);
-        if (step < 2) {
-            change_keys(scene[1], positions); /* creates anew, without a spare instance */
-            const imp_result same = answer_of(scene[1]);
-            check_same(&result, &same);
-        }
+        imp_scene *anew = moving(m);
+        change_keys(anew, m, positions); /* creates, without a spare instance */
+        const imp_result same = answer_of(anew);
+        check_same(&result, &same);
+        imp_scene_free(anew);
     }
-    for (int k = 0; k < 2; ++k) imp_scene_free(scene[k]);
+    imp_scene_free(scene);
+}
+
+START_TEST(keys_of_a_motion_change_without_an_allocation)
+{
+    const imp_argument times = imp_argument_list("times", key_times, 3);
+    const motion all[] = {
+        {"keyframes", {times, imp_argument_rows("rotations", key_turns, 3, 4)}, 2},
+        {"trajectory", {times}, 1},
+        {"trajectory",
+         {times, imp_argument_rows("rotations", half_turns, 3, 4),
+          imp_argument_rows("spins", key_spins, 2, 3)},
+         3},
+    };
+    for (size_t k = 0; k < sizeof all / sizeof *all; ++k) check_motion(&all[k]);
 }
 END_TEST
 
