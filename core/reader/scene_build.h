@@ -5,13 +5,13 @@
 
 #include <jansson.h>
 
+#include "core/base/named_files.h"
 #include "core/base/place.h"
 #include "core/plugin/isolate.h"
 #include "core/plugin/parameters.h"
 #include "core/plugin/registry.h"
 #include "core/plugin/type_view.h"
 #include "core/reader/reading_budget.h"
-#include "core/base/named_files.h"
 #include "core/surface/surface.h"
 
 #include <impinge/examine.h>

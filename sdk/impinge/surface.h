@@ -494,8 +494,8 @@ typedef struct imp_surface_type {
      * instance that create made from these values; its pieces may be others than before. On any
      * other status the values are wrong, or more than the instance has room for; then it may hold
      * anything, and the host does nothing with it but destroy it, and calls create, whose answer
-     * counts. After IMP_STATUS_OK an instance whose domain or pieces break a promise is an error, as
-     * after create, which is then not tried: it would hide the fault. `why` is as in create, and
+     * counts. After IMP_STATUS_OK an instance whose domain or pieces break a promise is an error,
+     * as after create, which is then not tried: it would hide the fault. `why` is as in create, and
      * what it says of a failure is not read. A renew for values of the same shapes as before should
      * not allocate. The host calls it only while nothing else uses the instance. [main-thread] */
     imp_status (*renew)(void *self, const imp_value *values, imp_create_error *why);
