@@ -254,6 +254,7 @@ core_solver = \
     core/solver/query_limits.c \
     core/solver/query_proof.c core/solver/query_proof.h \
     core/solver/query_refine.c \
+    core/solver/split_pair.c core/solver/split_pair.h \
     core/solver/subdivision.c core/solver/subdivision.h \
     core/solver/time_of_impact.c core/solver/time_of_impact.h \
     core/solver/upper_time.c core/solver/upper_time.h \

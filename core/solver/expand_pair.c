@@ -9,88 +9,9 @@
 #include "core/solver/explanation.h"
 #include "core/solver/pair_note.h"
 #include "core/solver/pair_step.h"
+#include "core/solver/split_pair.h"
 #include "core/witness/contact_estimate.h"
 #include "core/witness/newton.h"
-
-static candidate_pair *candidate_pair_of(const impact *im, const pair *p)
-{
-    return &im->candidate_pairs[p->candidate_pair];
-}
-
-/* --- Push ------------------------------------------------------------------------------------- */
-
-/* Tests a child and pushes it. Precondition: p->window is the parent's window, cut to both nodes'
- * times. */
-static imp_code test_and_push(impact *im, const pair *p, imp_error *error)
-{
-    pair_test t = {.p = *p};
-    const imp_code code = pair_test_first(im, &t, impact_turning(im, p), error);
-    if (code == IMP_SUCCESS) impact_push(im, &t);
-    return code;
-}
-
-/* --- Splitting -------------------------------------------------------------------------------- */
-
-/* Pushes a pair whose window the hulls have cut already: it is tested when it is popped. */
-static imp_code push_cut(impact *im, const pair *p, imp_error *error)
-{
-    pair_test t = {.p = *p, .near = true};
-    t.p.is_seen_only = true;
-    const imp_code code = pair_test_ask_for_nets(im, &t.p, &t.bytes, error);
-    if (code == IMP_SUCCESS) impact_push(im, &t);
-    return code;
-}
-
-/* Splits the pair and pushes its halves. `halves`: the heights of its nodes along its axis; NULL:
- * not known. */
-static imp_code split(impact *im, const pair *p, cut c, const net_halves *halves,
-                      impact_state *state, imp_error *error)
-{
-    time_window left[2] = {p->window, p->window};
-    bool near[2] = {true, true};
-    const bool is_cut =
-        halves != NULL && net_halves_cut(halves, c.side, c.along, &p->window, left, near);
-    for (int half = 0; half < 2; ++half) {
-        pair child = *p;
-        child.window = left[half];
-        bool some = false;
-        imp_code code = IMP_SUCCESS;
-        if (near[half])
-            code = cut_take(&c, half, candidate_pair_of(im, p), &child, &some, im->stats, error);
-        some = some && !pair_is_left_out(&child, candidate_pair_of(im, p));
-        if (code == IMP_SUCCESS && some) pair_note_cut(im->proof, &child, &c, half);
-        if (code == IMP_SUCCESS && some)
-            code = is_cut ? push_cut(im, &child, error) : test_and_push(im, &child, error);
-        if (code == IMP_ERROR_PLUGIN) return code;
-        if (code != IMP_SUCCESS) *state = IMPACT_NO_MEMORY;
-    }
-    return IMP_SUCCESS;
-}
-
-/* Replaces nodes by halves while the pair's axis excludes the other half; only the last gets
- * models. *some false: both halves are excluded. */
-static imp_code leave_out_halves(impact *im, pair *p, net_halves *halves, bool *some,
-                                 imp_error *error)
-{
-    const candidate_pair *both = candidate_pair_of(im, p);
-    halves->has_heights = false;
-    *some = true;
-    if (!strategy_has_both_hulls(p->a, p->b)) return IMP_SUCCESS;
-    net_halves_find(p->a, p->b, p->axis, im->gamma_clear, &p->window, halves);
-    const int count = halves->count;
-    *some = count == 0 || halves->found[count - 1].half >= 0;
-    if (count == 0 || !*some) return IMP_SUCCESS;
-    p->wait -= p->wait < (uint32_t)count ? p->wait : (uint32_t)count;
-    const imp_code code = pair_take_halves(p, halves->found, count, both, im->stats, error);
-    for (int k = 0; k < count && code == IMP_SUCCESS; ++k) {
-        const net_half *h = &halves->found[k];
-        pair_note_cut(im->proof, p, &(cut){h->side, h->along, 0}, h->half);
-        pair_note_test(im->proof, p, true);
-    }
-    return code == IMP_SUCCESS ? pair_test_ask_for_nets(im, p, &im->stats->bytes, error) : code;
-}
-
-/* --- Expanding one pair ----------------------------------------------------------------------- */
 
 static resolution resolved(const impact *im) { return resolution_of(im->gamma, im->gamma_clear); }
 
@@ -129,7 +50,7 @@ static imp_code has_bounded_half(impact *im, const pair *p, const cut *c, bool *
         pair child = *p;
         bool some;
         const imp_code code =
-            cut_take(c, half, candidate_pair_of(im, p), &child, &some, im->stats, error);
+            cut_take(c, half, impact_candidates(im, p), &child, &some, im->stats, error);
         if (code != IMP_SUCCESS) return code;
         *found = *found || (c->side == 0 ? child.a : child.b)->bounded;
     }
@@ -162,8 +83,8 @@ static imp_code expand_unbounded(impact *im, const pair *p, impact_state *state,
     const imp_code code = cut_unbounded(im, p, side, &c, error);
     explanation_count(im, p, explanation_if_asked(im, p));
     if (code != IMP_SUCCESS) return code;
-    if (c.side >= 0) return split(im, p, c, NULL, state, error);
-    return node_unbounded_fault(candidate_pair_of(im, p)->side[side]->tree, side == 0 ? p->a : p->b,
+    if (c.side >= 0) return split_pair(im, p, c, NULL, state, error);
+    return node_unbounded_fault(impact_candidates(im, p)->side[side]->tree, side == 0 ? p->a : p->b,
                                 error);
 }
 
@@ -182,14 +103,14 @@ static imp_code expand_by_paper(impact *im, const pair *p, impact_state *state, 
         return IMP_SUCCESS;
     }
     const cut c = cut_by_contribution(p);
-    if (c.side >= 0) return split(im, p, c, NULL, state, error);
+    if (c.side >= 0) return split_pair(im, p, c, NULL, state, error);
     *state = IMPACT_RESOLUTION;
     return IMP_SUCCESS;
 }
 
 static bool precision_ends(const impact *im, const pair *p, double flat)
 {
-    return pair_precision_ends(p, candidate_pair_of(im, p), resolved(im).room, flat);
+    return pair_precision_ends(p, impact_candidates(im, p), resolved(im).room, flat);
 }
 
 /* Whether a search for a witness is likely to succeed: remainders are small against gamma, or
@@ -229,7 +150,7 @@ static imp_code choose_cut_after_free(impact *im, pair *p, const distance_outcom
     *c = choose_cut(im, p, distances);
     while (code == IMP_SUCCESS && cut_is_free(c, p, &half)) {
         bool some;
-        code = cut_take(c, half, candidate_pair_of(im, p), p, &some, im->stats, error);
+        code = cut_take(c, half, impact_candidates(im, p), p, &some, im->stats, error);
         if (code == IMP_SUCCESS) code = pair_test_ask_for_nets(im, p, &im->stats->bytes, error);
         if (code == IMP_SUCCESS) *c = choose_cut(im, p, distances);
     }
@@ -271,7 +192,7 @@ static imp_code expand_by_models(impact *im, pair *p, impact_state *state, imp_e
     const time_window before = p->window;
     distance_outcome distances;
     trial_rate *sliding = im->trials != NULL ? &im->trials[p->candidate_pair].sliding : NULL;
-    imp_code code = pair_look(p, candidate_pair_of(im, p), im->gamma_clear, GOAL_CONTACT,
+    imp_code code = pair_look(p, impact_candidates(im, p), im->gamma_clear, GOAL_CONTACT,
                               im->proof != NULL, sliding, &distances, error);
     if (code == IMP_SUCCESS && distances.is_apart) pair_note_test(im->proof, p, false);
     if (code != IMP_SUCCESS || distances.is_apart) return code;
@@ -281,7 +202,7 @@ static imp_code expand_by_models(impact *im, pair *p, impact_state *state, imp_e
     if (pair_has_cluster(p)) {
         p->window = distances.left;
         explanation_count(im, p, IMP_OBSTACLE_SIZE);
-        return split(im, p, cut_by_spread(p, im->gamma, false), NULL, state, error);
+        return split_pair(im, p, cut_by_spread(p, im->gamma, false), NULL, state, error);
     }
     if (witness_is_likely(im, p, &distances)) {
         witness seen;
@@ -303,7 +224,7 @@ static imp_code expand_by_models(impact *im, pair *p, impact_state *state, imp_e
     bool some;
     cut c;
     net_halves halves;
-    code = leave_out_halves(im, p, &halves, &some, error);
+    code = split_leave_out_halves(im, p, &halves, &some, error);
     if (code == IMP_SUCCESS && !some) return IMP_SUCCESS;
     if (code == IMP_SUCCESS && TUNING_TINY * pair_extent(p) <= resolved(im).room)
         c = cut_in_time(p);
@@ -313,12 +234,12 @@ static imp_code expand_by_models(impact *im, pair *p, impact_state *state, imp_e
     if (code != IMP_SUCCESS) return *state = IMPACT_NO_MEMORY, IMP_SUCCESS;
     if (c.side < 0) return *state = end_by_resolution(im, p), IMP_SUCCESS;
     explanation_count(im, p, obstacle);
-    return split(im, p, c, &halves, state, error);
+    return split_pair(im, p, c, &halves, state, error);
 }
 
 imp_code expand_pair(impact *im, pair *p, impact_state *state, imp_error *error)
 {
-    const imp_code code = pair_measure(p, candidate_pair_of(im, p), error);
+    const imp_code code = pair_measure(p, impact_candidates(im, p), error);
     if (code != IMP_SUCCESS) return code;
     if (!p->a->bounded || !p->b->bounded) return expand_unbounded(im, p, state, error);
     return im->baseline != IMP_BASELINE_NONE ? expand_by_paper(im, p, state, error)
