@@ -43,18 +43,17 @@ static imp_code look(frame *f, const time_window *times, bool *has_middle, imp_e
     const tree *t = f->made.tree;
     const surface *s = tree_surface(t);
     imp_model bare[3];
-    double middle[3] = {0, 0, 0};
-    bool is_told;
+    glance_middle middle;
     *has_middle = is_seen(f, times) && f->seen.has_middle;
     if (is_seen(f, times)) return IMP_SUCCESS;
-    const imp_status status = surface_has_middle(s, &is_told);
+    const imp_status status = surface_find_middle(s, &middle);
     if (status != IMP_STATUS_OK) return distance_fault(s, status, error);
-    if (!is_told && !node_bare_models(tree_root(t), bare)) {
+    if (!middle.is_closed && !node_bare_models(tree_root(t), bare)) {
         f->seen = (surface_glance){.from = times->lo, .to = times->hi};
         return IMP_SUCCESS;
     }
-    for (int i = 0; i < 3 && !is_told; ++i) middle[i] = bare[i].a;
-    surface_glance_at(s, middle, times->lo, times->hi, &f->seen);
+    for (int i = 0; i < 3 && !middle.is_closed; ++i) middle.point[i] = bare[i].a;
+    surface_glance_at(s, &middle, times->lo, times->hi, &f->seen);
     *has_middle = true;
     return IMP_SUCCESS;
 }

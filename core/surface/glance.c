@@ -20,11 +20,10 @@ static double distance(const double x[3], const double y[3])
     return sqrt(square);
 }
 
-imp_status surface_has_middle(const surface *s, bool *has_middle)
+imp_status surface_find_middle(const surface *s, glance_middle *found)
 {
-    imp_symmetry found;
-    const imp_status status = surface_closed_symmetry(s, true, &found);
-    *has_middle = status == IMP_STATUS_OK;
+    const imp_status status = surface_closed_symmetry(s, true, &found->closed);
+    found->is_closed = status == IMP_STATUS_OK;
     return status == IMP_STATUS_UNBOUNDED ? IMP_STATUS_OK : status;
 }
 
@@ -35,20 +34,21 @@ static void take_axis(const double from[3], double axis[3])
     for (int i = 0; i < 3; ++i) axis[i] = (axis[i] - from[i]) / length;
 }
 
-void surface_glance_at(const surface *s, const double middle[3], double from, double to,
+void surface_glance_at(const surface *s, const glance_middle *middle, double from, double to,
                        surface_glance *g)
 {
-    imp_symmetry own, closed;
-    const bool is_closed = surface_closed_symmetry(s, true, &closed) == IMP_STATUS_OK;
+    imp_symmetry own;
+    const imp_symmetry *const closed = &middle->closed;
+    const bool is_closed = middle->is_closed;
     *g = (surface_glance){.from = from, .to = to, .has_middle = true, .is_known = true};
-    g->has_axis = is_closed && closed.kind == IMP_SYMMETRY_ABOUT_LINE;
+    g->has_axis = is_closed && closed->kind == IMP_SYMMETRY_ABOUT_LINE;
     g->is_about = is_closed && surface_symmetry(s, &own) == IMP_STATUS_OK &&
                   (own.kind == IMP_SYMMETRY_ABOUT_POINT || own.kind == IMP_SYMMETRY_ABOUT_LINE);
     for (int k = 0; k < GLANCES; ++k) {
         double x[2][3];
         const double t = from + moments[k] * (to - from);
-        memcpy(x[0], is_closed ? closed.center : middle, sizeof x[0]);
-        for (int i = 0; i < 3; ++i) x[1][i] = x[0][i] + (g->has_axis ? closed.axis[i] : 0);
+        memcpy(x[0], is_closed ? closed->center : middle->point, sizeof x[0]);
+        for (int i = 0; i < 3; ++i) x[1][i] = x[0][i] + (g->has_axis ? closed->axis[i] : 0);
         const size_t count = g->has_axis ? 2 : 1;
         if (surface_move_outward(s, 0, t, count, x[0]) != IMP_STATUS_OK) g->is_known = false;
         if (g->has_axis) take_axis(x[0], x[1]);

@@ -24,14 +24,20 @@ typedef struct surface_glance {
     double axis[GLANCES][3]; /* unit, where it has one */
 } surface_glance;
 
-/* Glances at the surface from one time to another. `middle`, before the maps, is any point that it
- * carries; it is not read where surface_has_middle. */
-void surface_glance_at(const surface *s, const double middle[3], double from, double to,
-                       surface_glance *g);
+/* What the middle of a surface is taken from, before its maps. */
+typedef struct glance_middle {
+    bool is_closed;      /* by `closed`, whose center it is */
+    imp_symmetry closed; /* each of its rotations keeps the surface */
+    double point[3];     /* where not: to be set to any point that the surface carries */
+} glance_middle;
 
-/* Finds whether a closed symmetry tells its middle. A status other than OK: its type broke the
+/* Finds whether a closed symmetry tells the middle. A status other than OK: its type broke the
  * ABI. */
-imp_status surface_has_middle(const surface *s, bool *has_middle);
+imp_status surface_find_middle(const surface *s, glance_middle *found);
+
+/* Glances at the surface from one time to another. */
+void surface_glance_at(const surface *s, const glance_middle *middle, double from, double to,
+                       surface_glance *g);
 
 /* Whether two surfaces surely do not only turn within themselves: as long as they do, their middles
  * are always as far apart. */

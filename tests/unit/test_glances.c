@@ -29,6 +29,15 @@ static void draw_closed(uint64_t *random, imp_symmetry *s)
     s->is_closed = IMP_SYMMETRY_CLOSED;
 }
 
+/* Glances at a surface that is closed about a point or a line. */
+static void glance_at(const surface *s, double from, double to, surface_glance *seen)
+{
+    glance_middle middle;
+    ck_assert_int_eq(surface_find_middle(s, &middle), IMP_STATUS_OK);
+    ck_assert(middle.is_closed);
+    surface_glance_at(s, &middle, from, to, seen);
+}
+
 static double half_diagonal(const double lo[3], const double hi[3])
 {
     double square = 0;
@@ -53,8 +62,8 @@ static glance_tally try_all(double factor)
         surface_glance seen[2];
         imp_model bare[3];
         double slip, lo[3], hi[3];
-        surface_glance_at(a, NULL, times.lo[2], times.hi[2], &seen[0]);
-        surface_glance_at(b, NULL, times.lo[2], times.hi[2], &seen[1]);
+        glance_at(a, times.lo[2], times.hi[2], &seen[0]);
+        glance_at(b, times.lo[2], times.hi[2], &seen[1]);
         for (int i = 0; i < 3; ++i) {
             bare[i] = imp_between(own.center[i] - 1, own.center[i] + 1);
             lo[i] = random_between(&random, -4, 0), hi[i] = random_between(&random, 0, 4);
@@ -94,8 +103,8 @@ static bool is_off_line(double beside, double most)
     surface_glance seen[2];
     round.center[0] = beside, round.center[2] = 5;
     surface *a = compose(&ring, maps, 1), *b = compose(&round, maps, 1);
-    surface_glance_at(a, NULL, 0, 1, &seen[0]);
-    surface_glance_at(b, NULL, 0, 1, &seen[1]);
+    glance_at(a, 0, 1, &seen[0]);
+    glance_at(b, 0, 1, &seen[1]);
     surface_free(a);
     surface_free(b);
     ck_assert(seen[0].has_axis && !seen[1].has_axis);
@@ -121,7 +130,7 @@ START_TEST(surfaces_that_drift_apart_are_told_from_those_that_turn)
     surface *of[3] = {compose(&s, moves, 1), compose(&s, turns, 1), NULL};
     s.center[1] = 3;
     of[2] = compose(&s, turns, 1);
-    for (int k = 0; k < 3; ++k) surface_glance_at(of[k], NULL, 0, 1, &seen[k]);
+    for (int k = 0; k < 3; ++k) glance_at(of[k], 0, 1, &seen[k]);
     ck_assert(glances_part(&seen[0], &seen[2]));
     ck_assert(!glances_part(&seen[1], &seen[2]));
     for (int k = 0; k < 3; ++k) surface_free(of[k]);
