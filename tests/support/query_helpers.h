@@ -94,6 +94,25 @@ static inline void query_check(const imp_scene *scene, const imp_options *option
     }
 }
 
+/* Asks for the least distance, NULL: with the usual options; it is enclosed within `part` of the one
+ * that is known, and to a thousandth, by that many pairs at most. */
+static inline void query_brackets(imp_scene *scene, const imp_options *options,
+                                  const imp_clearance_options *asked, double distance, double part,
+                                  uint64_t pairs)
+{
+    imp_error error = {IMP_SUCCESS, ""};
+    imp_clearance found = {.struct_size = sizeof found};
+    imp_query *query = imp_clearance_new(scene, options, asked, &error);
+    ck_assert_msg(query != NULL, "%s", error.text);
+    ck_assert_int_eq(imp_query_step(query, 0, &error), IMP_SUCCESS);
+    ck_assert_int_eq(imp_clearance_get(query, 0, &found, &error), IMP_SUCCESS);
+    imp_query_free(query);
+    ck_assert_msg(found.stats.pairs <= pairs, "%llu pairs", (unsigned long long)found.stats.pairs);
+    ck_assert_double_le(found.lower, distance * (1 + part));
+    ck_assert_double_ge(found.upper, distance * (1 - part));
+    ck_assert_double_le(found.upper - found.lower, 1e-3 * found.upper);
+}
+
 /* The types come from `registry`: tests that ask often make one once. */
 static inline imp_result ask_in(imp_registry *registry, const question *q)
 {

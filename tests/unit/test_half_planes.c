@@ -254,17 +254,7 @@ START_TEST(coaxial_surfaces_meet_when_they_do)
         ck_assert_double_le(r.t, x->t);
         ck_assert_double_ge(r.t, x->t - 4 * x->gamma);
     } else {
-        imp_clearance found = {.struct_size = sizeof found};
-        imp_query *query = imp_clearance_new(scene, &options, NULL, &error);
-        ck_assert_ptr_nonnull(query);
-        ck_assert_int_eq(imp_query_step(query, 0, &error), IMP_SUCCESS);
-        ck_assert_int_eq(imp_clearance_get(query, 0, &found, &error), IMP_SUCCESS);
-        imp_query_free(query);
-        ck_assert_msg(found.stats.pairs <= x->clearance_pairs, "%llu pairs",
-                      (unsigned long long)found.stats.pairs);
-        ck_assert_double_le(found.lower, x->distance * (1 + 1e-4));
-        ck_assert_double_ge(found.upper, x->distance * (1 - 1e-4));
-        ck_assert_double_le(found.upper - found.lower, 1e-3 * found.upper);
+        query_brackets(scene, &options, NULL, x->distance, 1e-4, x->clearance_pairs);
     }
     imp_scene_free(scene);
     imp_registry_free(registry);

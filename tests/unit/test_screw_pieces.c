@@ -437,19 +437,9 @@ START_TEST(nuts_are_clear_of_their_bolts)
     ck_assert_int_eq(r.verdict, IMP_VERDICT_CLEAR);
     ck_assert_msg(r.stats.pairs <= x->pairs, "%llu pairs", (unsigned long long)r.stats.pairs);
     for (int each = 0; each < 2; ++each) {
-        imp_clearance found = {.struct_size = sizeof found};
         imp_clearance_options asked = imp_clearance_options_default();
         asked.each = each != 0;
-        imp_query *query = imp_clearance_new(scene, &options, &asked, &error);
-        ck_assert_ptr_nonnull(query);
-        ck_assert_int_eq(imp_query_step(query, 0, &error), IMP_SUCCESS);
-        ck_assert_int_eq(imp_clearance_get(query, 0, &found, &error), IMP_SUCCESS);
-        imp_query_free(query);
-        ck_assert_msg(found.stats.pairs <= x->clearance_pairs, "%llu pairs",
-                      (unsigned long long)found.stats.pairs);
-        ck_assert_double_le(found.lower, x->distance * (1 + 1e-8));
-        ck_assert_double_ge(found.upper, x->distance * (1 - 1e-8));
-        ck_assert_double_le(found.upper - found.lower, 1e-3 * found.upper);
+        query_brackets(scene, &options, &asked, x->distance, 1e-8, x->clearance_pairs);
     }
     imp_scene_free(scene);
     imp_registry_free(registry);
