@@ -381,6 +381,8 @@ check_LTLIBRARIES = \
     tests/plugins/liar_truthful_symmetry.la \
     tests/plugins/liar_truthful_screw.la \
     tests/plugins/liar_screw_hand.la \
+    tests/plugins/liar_screw_crack.la \
+    tests/plugins/liar_screw_wavy.la \
     tests/plugins/liar_screw_slit.la \
     tests/plugins/liar_screw.la \
     tests/plugins/liar_truthful_net.la \
@@ -496,6 +498,8 @@ tests_plugins_liar_truthful_distance_la_LDFLAGS = $(test_plugin_ldflags)
 tests_plugins_liar_truthful_symmetry_la_LDFLAGS = $(test_plugin_ldflags)
 tests_plugins_liar_truthful_screw_la_LDFLAGS = $(test_plugin_ldflags)
 tests_plugins_liar_screw_hand_la_LDFLAGS = $(test_plugin_ldflags)
+tests_plugins_liar_screw_crack_la_LDFLAGS = $(test_plugin_ldflags)
+tests_plugins_liar_screw_wavy_la_LDFLAGS = $(test_plugin_ldflags)
 tests_plugins_liar_screw_slit_la_LDFLAGS = $(test_plugin_ldflags)
 tests_plugins_liar_screw_la_LDFLAGS = $(test_plugin_ldflags)
 tests_plugins_liar_truthful_net_la_LDFLAGS = $(test_plugin_ldflags)

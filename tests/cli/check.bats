@@ -122,6 +122,8 @@ load ../support/check_helper
     exposes distances liar_screw 'symmetry allows turning by '
     exposes distances liar_screw_hand 'symmetry allows turning by '
     exposes distances liar_screw_slit 'symmetry says is_closed, but turning by '
+    exposes distances liar_screw_crack 'symmetry says is_closed, but turning by '
+    exposes distances liar_screw_wavy 'symmetry says is_closed, but turning by '
     for truthful in symmetry screw; do
         run -0 "$IMPINGE" check "$liars/liar_truthful_$truthful.so" --only distances
         [[ $output == *'pass  distances '*comparisons* ]]

@@ -15,6 +15,13 @@ static inline void coil_slit_domain(const void *self, double lo[3], double hi[3]
     lo[0] = lo[1] = 0, hi[0] = 6, hi[1] = 2;
 }
 
+/* All around but for 0.01 rad. */
+static inline void coil_crack_domain(const void *self, double lo[3], double hi[3])
+{
+    coil_slit_domain(self, lo, hi);
+    hi[0] = 6.273;
+}
+
 static inline void coil_domain(const void *self, double lo[3], double hi[3])
 {
     tiny_domain(self, lo, hi);
@@ -23,19 +30,35 @@ static inline void coil_domain(const void *self, double lo[3], double hi[3])
 
 static inline imp_model coil_turn(imp_model z) { return imp_mul(imp_scale(imp_const_pi(), 2), z); }
 
-static inline void coil_formula(const void *self, imp_model u, imp_model v, imp_model t,
-                                imp_model out[3])
+/* Its point at the angle u and the height z. */
+static inline void coil_point(imp_model u, imp_model z, imp_model out[3])
 {
-    const imp_model wave = imp_cos(imp_sub(u, coil_turn(v)));
+    const imp_model wave = imp_cos(imp_sub(u, coil_turn(z)));
     const imp_model q = imp_shift(imp_scale(wave, 0.2), 2);
     imp_model sine, cosine;
-    (void)self, (void)t;
     imp_sincos(u, &sine, &cosine);
     out[0] = imp_mul(q, cosine);
     out[1] = imp_mul(q, sine);
-    out[2] = v;
+    out[2] = z;
+}
+
+static inline void coil_formula(const void *self, imp_model u, imp_model v, imp_model t,
+                                imp_model out[3])
+{
+    (void)self, (void)t;
+    coil_point(u, v, out);
 }
 IMP_SURFACE_FORMULA(coil_formula)
+
+/* Ends above in a wave of 0.02, three of which go around. */
+static inline void coil_wavy(const void *self, imp_model u, imp_model v, imp_model t,
+                             imp_model out[3])
+{
+    const imp_model wave = imp_cos(imp_scale(u, 3));
+    (void)self, (void)t;
+    coil_point(u, imp_mul(v, imp_shift(imp_scale(wave, 0.01), 1)), out);
+}
+IMP_SURFACE_FORMULA(coil_wavy)
 
 /* Between radii of 1.5 and 2.5 the way to the nearest point stays outside of radius 1, where |grad
  * (q - radius)| <= sqrt(1 + 0.2^2 (4 pi^2 + 1)) < 1.63. */
@@ -62,6 +85,8 @@ static inline imp_status coil_symmetry(uint32_t kind, double lead, uint32_t is_c
 }
 
 #define COIL_PLUGIN(NAME, DOMAIN, KIND, LEAD, CLOSED)                                              \
+    COIL_PLUGIN_OF(NAME, coil_formula, DOMAIN, KIND, LEAD, CLOSED)
+#define COIL_PLUGIN_OF(NAME, FORMULA, DOMAIN, KIND, LEAD, CLOSED)                                  \
     static imp_status symmetry_of(const void *self, imp_symmetry *found)                           \
     {                                                                                              \
         (void)self;                                                                                \
@@ -77,9 +102,9 @@ static inline imp_status coil_symmetry(uint32_t kind, double lead, uint32_t is_c
         .create = tiny_create,                                                                     \
         .destroy = tiny_destroy,                                                                   \
         .domain = DOMAIN,                                                                          \
-        .eval = coil_formula_eval,                                                                 \
-        .rate = coil_formula_rate,                                                                 \
-        .include = coil_formula_include,                                                           \
+        .eval = FORMULA##_eval,                                                                    \
+        .rate = FORMULA##_rate,                                                                    \
+        .include = FORMULA##_include,                                                              \
         .distance = coil_gap_distance,                                                             \
         .symmetry = symmetry_of,                                                                   \
     };                                                                                             \

@@ -78,45 +78,93 @@ static double height_of(const imp_symmetry *of, const double x[3])
     return dot / square;
 }
 
-enum { HEIGHTS = 16 };
+enum { HEIGHTS = 32 };
 
-/* A screw motion that takes a point to some height between those of points of the surface. */
-static motion draw_screw_within(const subject *s, uint64_t *random, const imp_symmetry *of,
-                                const spot *at)
+/* Moves the point to a border of the domain, along u or v. */
+static void go_to_border(const subject *s, uint64_t *random, double p[3])
 {
-    double lo = height_of(of, at->x), hi = lo;
-    const double from = lo, hand = of->kind == IMP_SYMMETRY_SCREW_RIGHT ? 1 : -1;
+    const uint64_t which = random_bits(random);
+    const int j = (which & 1) != 0;
+    p[j] = (which & 2) != 0 ? s->domain.hi[j] : s->domain.lo[j];
+}
+
+/* Heights of points of the surface at the time of `at`, from the least to the most that are found:
+ * at corners, on borders and elsewhere. */
+static void find_heights(const subject *s, uint64_t *random, const imp_symmetry *of, const spot *at,
+                         double height[2])
+{
+    height[0] = height[1] = height_of(of, at->x);
     for (int k = 0; k < HEIGHTS; ++k) {
         spot other;
         draw_point(random, &s->domain, 3, other.p);
         other.p[2] = at->p[2];
         for (int j = 0; j < 2 && k < 4; ++j)
             other.p[j] = (k >> j & 1) != 0 ? s->domain.hi[j] : s->domain.lo[j];
+        if (k >= 4 && k % 4 != 0) go_to_border(s, random, other.p);
         if (!spot_evaluate(s, &other)) continue;
-        const double height = height_of(of, other.x);
-        lo = fmin(lo, height);
-        hi = fmax(hi, height);
+        const double found = height_of(of, other.x);
+        height[0] = fmin(height[0], found);
+        height[1] = fmax(height[1], found);
     }
-    motion m = motion_draw(random, of, 1);
-    double turns = lo + random_between(random, 0.001, 0.999) * (hi - lo) - from;
-    turns = fmin(fmax(turns, -IMP_SCREW_TURNS), IMP_SCREW_TURNS);
-    m.angle = hand * turns * 2 * acos(-1);
-    for (int i = 0; i < 3; ++i) m.shift[i] = turns * of->axis[i];
-    return m;
 }
 
-static bool judge(const subject *s, uint64_t *random, const imp_symmetry *of)
+/* Where images of points should come to lie: anywhere; near where they come from, which are borders
+ * of the domain, so that what is missing beyond them shows; near the ends of a thread. */
+typedef enum aim { ANYWHERE, BESIDE_BORDERS, NEAR_ENDS, AIMS } aim;
+
+static void set_turns(motion *m, const imp_symmetry *of, double turns)
+{
+    const double hand = of->kind == IMP_SYMMETRY_SCREW_RIGHT ? 1 : -1;
+    m->angle = hand * turns * 2 * acos(-1);
+    for (int i = 0; i < 3; ++i) m->shift[i] = turns * of->axis[i];
+}
+
+/* Draws a motion of the symmetry that takes the point to where a closed surface is. False: there is
+ * none. */
+static bool draw_image(const subject *s, uint64_t *random, const imp_symmetry *of, const spot *at,
+                       double size, aim to, motion *m)
+{
+    const double little = random_power(random, -16, -2), sign = random_bits(random) % 2 ? 1 : -1;
+    *m = motion_draw(random, of, is_screw(of) ? 1 : size);
+    if (!is_screw(of)) {
+        memset(m->shift, 0, sizeof m->shift);
+        if (to == BESIDE_BORDERS) m->angle = sign * little;
+        return true;
+    }
+    double height[2];
+    find_heights(s, random, of, at, height);
+    const double from = height_of(of, at->x), length = height[1] - height[0];
+    double turns = sign * little;
+    if (to == NEAR_ENDS)
+        turns = (sign > 0 ? height[1] - little * length : height[0] + little * length) - from;
+    else if (to == ANYWHERE)
+        turns = height[0] + random_between(random, 0.001, 0.999) * length - from;
+    turns = fmin(fmax(turns, -IMP_SCREW_TURNS), IMP_SCREW_TURNS);
+    set_turns(m, of, turns);
+    return from + turns >= height[0] && from + turns <= height[1];
+}
+
+/* The nearest point of the surface that is found, from anywhere and beside one that is there. */
+static void find_nearest(const subject *s, const double x[3], const spot *beside, spot *found)
+{
+    spot other = *beside;
+    const bool has_one = spot_nearest(s, x, beside->p[2], found);
+    spot_search(s, x, &other);
+    if (!has_one || spot_apart_upper(&other, x) < spot_apart_upper(found, x)) *found = other;
+}
+
+static bool judge(const subject *s, uint64_t *random, const imp_symmetry *of, aim to)
 {
     double middle[3], radius;
     spot at, found;
+    motion m;
     draw_point(random, &s->domain, 3, at.p);
+    if (to == BESIDE_BORDERS) go_to_border(s, random, at.p);
     if (!spot_evaluate(s, &at) || !spot_extent(s, at.p[2], middle, &radius)) return true;
-    motion m =
-        is_screw(of) ? draw_screw_within(s, random, of, &at) : motion_draw(random, of, radius);
-    if (!is_screw(of)) memset(m.shift, 0, sizeof m.shift);
+    if (!draw_image(s, random, of, &at, radius, to, &m)) return true;
     double x[3] = {at.x[0], at.x[1], at.x[2]};
     motion_apply(&m, x);
-    if (!spot_nearest(s, x, at.p[2], &found)) return true;
+    find_nearest(s, x, &at, &found);
     const double apart = (double)spot_apart_upper(&found, x);
     ++s->answer->tests;
     if (!(apart > NEAR * radius + 2 * at.error) || !is_off(s, x, at.p[2], 0.5 * apart)) return true;
@@ -188,7 +236,7 @@ bool closed_check(const subject *s, uint64_t *random, const imp_symmetry *of)
     imp_symmetry rotations = *of;
     if (of->kind != IMP_SYMMETRY_ABOUT_POINT && !is_screw(of))
         rotations.kind = IMP_SYMMETRY_ABOUT_LINE;
-    for (int k = 0; k < POINTS; ++k)
-        if (!judge(s, random, &rotations)) return false;
+    for (int k = 0; k < AIMS * POINTS; ++k)
+        if (!judge(s, random, &rotations, (aim)(k % AIMS))) return false;
     return true;
 }

@@ -86,6 +86,12 @@ static void search(const subject *s, const double x[3], spot *best, long double 
     }
 }
 
+void spot_search(const subject *s, const double x[3], spot *at)
+{
+    long double apart = spot_apart_upper(at, x);
+    search(s, x, at, &apart);
+}
+
 bool spot_nearest(const subject *s, const double x[3], double t, spot *at)
 {
     double p[3 * GRID];

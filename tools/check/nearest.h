@@ -24,6 +24,9 @@ long double spot_apart_upper(const spot *at, const double x[3]);
  * be elsewhere. False, without a failure, if there is none. */
 bool spot_nearest(const subject *s, const double x[3], double t, spot *at);
 
+/* Moves the spot, with the same search, to where the surface is nearer to x. */
+void spot_search(const subject *s, const double x[3], spot *at);
+
 /* The middle of the surface at time t and half the diagonal of its box, as a grid shows them.
  * False, without a failure, if it has no points then. */
 bool spot_extent(const subject *s, double t, double middle[3], double *radius);
