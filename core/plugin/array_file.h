@@ -38,9 +38,9 @@ typedef struct array_file_limit {
     uint64_t held; /* bytes of arrays that were read before */
 } array_file_limit;
 
-/* Reads the array of that name, or if it is NULL that of a file without one; *bytes becomes the size
- * of its numbers. parameters_clear_value frees the value; on failure there is nothing to clear.
- * IMP_ERROR_LIMIT without a text: the limit, which may be NULL, does not allow it. */
+/* Reads the array of that name, or if it is NULL that of a file without one; *bytes becomes the
+ * size of its numbers. parameters_clear_value frees the value; on failure there is nothing to
+ * clear. IMP_ERROR_LIMIT without a text: the limit, which may be NULL, does not allow it. */
 imp_code array_file_read(const imp_parameter *row, const char *path, const char *array,
                          const array_file_limit *limit, const place *at, imp_value *value,
                          uint64_t *bytes, imp_error *error);

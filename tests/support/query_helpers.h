@@ -94,8 +94,8 @@ static inline void query_check(const imp_scene *scene, const imp_options *option
     }
 }
 
-/* Asks for the least distance, NULL: with the usual options; it is enclosed within `part` of the one
- * that is known, and to a thousandth, by that many pairs at most. */
+/* Asks for the least distance, with the usual options if `asked` is NULL. It is enclosed within
+ * `part` of the one that is known, and to a thousandth, by that many pairs at most. */
 static inline void query_brackets(imp_scene *scene, const imp_options *options,
                                   const imp_clearance_options *asked, double distance, double part,
                                   uint64_t pairs)
