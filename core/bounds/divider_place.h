@@ -38,16 +38,16 @@ static inline void raise_net(const net *f, const double *x, double raised[16])
     raise_lines(raised, n, 4, 1);
 }
 
-/* Loads four rows of a coordinate. */
-IMP_QUAD_INLINE void rows_of_net(const net *f, const double *x, imp_quad row[4])
+/* Loads two rows of a coordinate. */
+IMP_QUAD_INLINE void rows_of_net(const net *f, const double *x, const int at[2], imp_quad row[2])
 {
     double raised[16];
     const bool is_bicubic = f->degree[0] == 3 && f->degree[1] == 3;
     if (!is_bicubic) raise_net(f, x, raised);
-    for (int k = 0; k < 4; ++k) row[k] = imp_quad_load((is_bicubic ? x : raised) + 4 * k);
+    for (int k = 0; k < 2; ++k) row[k] = imp_quad_load((is_bicubic ? x : raised) + 4 * at[k]);
 }
 
-IMP_QUAD_INLINE imp_quad along(const imp_quad x[3][4], int k, vec3 n)
+IMP_QUAD_INLINE imp_quad along(const imp_quad x[3][2], int k, vec3 n)
 {
     return imp_quad_all(n.x[0]) * x[0][k] + imp_quad_all(n.x[1]) * x[1][k] +
            imp_quad_all(n.x[2]) * x[2][k];
@@ -59,24 +59,28 @@ IMP_QUAD_INLINE imp_quad along(const imp_quad x[3][4], int k, vec3 n)
 enum { PLACE_ROUNDING = 64 };
 _Static_assert((7 + 2 + 6 * 4 + 1 + 5) * 9 < 8 * PLACE_ROUNDING, "rounding of a place");
 
-IMP_QUAD_INLINE void place(const net *f, const net_divider *d, double t, bool is_flat, placed *to)
+/* Fills two rows: the first and the last (0), which hold the patch's corners, or those between. */
+IMP_QUAD_INLINE void place_rows(const net *f, const net_divider *d, double t, bool is_flat,
+                                int first, placed *to)
 {
     const double tau = t - f->time, since = t - d->time;
-    imp_quad x[3][4];
+    const int rows_of_two[2] = {first, 3 - first};
+    imp_quad x[3][2];
     for (int i = 0; i < 3; ++i) {
         const double offset =
             (f->place[i] - d->at.x[i]) + (tau * f->drift[i] - since * d->velocity.x[i]);
-        rows_of_net(f, f->numbers + i * f->stride, x[i]);
+        rows_of_net(f, f->numbers + i * f->stride, rows_of_two, x[i]);
         if (f->is_moving) {
-            imp_quad v[4];
-            rows_of_net(f, f->numbers + (3 + i) * f->stride, v);
-            for (int k = 0; k < 4; ++k) x[i][k] += imp_quad_all(tau) * v[k];
+            imp_quad v[2];
+            rows_of_net(f, f->numbers + (3 + i) * f->stride, rows_of_two, v);
+            for (int k = 0; k < 2; ++k) x[i][k] += imp_quad_all(tau) * v[k];
         }
-        for (int k = 0; k < 4; ++k) x[i][k] += imp_quad_all(offset);
+        for (int k = 0; k < 2; ++k) x[i][k] += imp_quad_all(offset);
     }
-    for (int k = 0; k < 4; ++k) {
-        to->z[k] = along(x, k, d->normal);
-        for (int i = 0; i < 2 && !is_flat; ++i) to->x[i][k] = along(x, k, d->across[i]);
+    for (int k = 0; k < 2; ++k) {
+        const int row = rows_of_two[k];
+        to->z[row] = along(x, k, d->normal);
+        for (int i = 0; i < 2 && !is_flat; ++i) to->x[i][row] = along(x, k, d->across[i]);
     }
 }
 

@@ -166,12 +166,9 @@ IMP_QUAD_INLINE bool all_exceed(const placed_nets *p, const net_divider *d, bool
 }
 
 IMP_QUAD_INLINE void place_both(const net *const nets[2], const net_divider *d, double t,
-                                bool is_flat, placed_nets *p, sizes *s)
+                                bool is_flat, int first, placed_nets *p)
 {
-    for (int side = 0; side < 2; ++side) {
-        place(nets[side], d, t, is_flat, &p->of[side]);
-        sizes_take(s, &p->of[side], is_flat);
-    }
+    for (int side = 0; side < 2; ++side) place_rows(nets[side], d, t, is_flat, first, &p->of[side]);
 }
 
 IMP_QUAD_INLINE bool parts_by(const node *a, const node *b, const net_divider *d,
@@ -181,9 +178,14 @@ IMP_QUAD_INLINE bool parts_by(const node *a, const node *b, const net_divider *d
     placed_nets early, late;
     divided_heights h[2];
     sizes s = {.most = 0};
-    place_both(nets, d, w->hi, is_flat, &late, &s);
+    place_both(nets, d, w->hi, is_flat, 0, &late);
     if (!corners_exceed(&late, d, is_flat, gamma_clear)) return false;
-    place_both(nets, d, w->lo, is_flat, &early, &s);
+    place_both(nets, d, w->hi, is_flat, 1, &late);
+    for (int first = 0; first < 2; ++first) place_both(nets, d, w->lo, is_flat, first, &early);
+    for (int side = 0; side < 2; ++side) {
+        sizes_take(&s, &late.of[side], is_flat);
+        sizes_take(&s, &early.of[side], is_flat);
+    }
     for (int side = 0; side < 2 && !is_flat; ++side)
         sizes_take_change(&s, side, &early.of[side], &late.of[side]);
     const double size = size_of(nets[0], d, w) + size_of(nets[1], d, w);

@@ -208,18 +208,30 @@ static imp_code seek_upper_time(impact *im, pair *p, imp_error *error)
     return code;
 }
 
-/* Parts the pair up to the known contact by the divider there (net_divider.h), if that succeeds:
- * the rest of the window goes back on the heap. Not where a proof is kept: its verifier knows no
- * dividers. Precondition: the heap has capacity. */
+/* Whether a divider parts the pair in this window, which ends at the known contact: the one there,
+ * or the plane across the pair's own axis. */
+static bool is_divided(const impact *im, const pair *p, const time_window *until)
+{
+    const upper_time *up = &im->upper;
+    const net_divider own = {.normal = vec3_scale(p->axis, 1 / vec3_norm(p->axis)), .time = up->t};
+    if (up->candidate_pair == p->candidate_pair &&
+        net_divider_parts(p->a, p->b, &up->divider, im->gamma_clear, until))
+        return true;
+    return net_divider_parts(p->a, p->b, &own, im->gamma_clear, until);
+}
+
+/* Parts the pair up to the known contact by a divider (net_divider.h), if that succeeds: the rest
+ * of the window goes back on the heap. Not where a proof is kept: its verifier knows no dividers.
+ * Precondition: the heap has capacity. */
 static bool part_by_divider(impact *im, pair *p)
 {
     const upper_time *up = &im->upper;
     const time_window until = window_common(p->window, (time_window){p->window.lo, up->t});
     if (!up->is_known || !up->has_horizon || im->proof != NULL || p->divided == up->count ||
-        up->candidate_pair != p->candidate_pair || !(until.lo < until.hi))
+        !(until.lo < until.hi))
         return false;
     p->divided = up->count;
-    if (!net_divider_parts(p->a, p->b, &up->divider, im->gamma_clear, &until)) return false;
+    if (!is_divided(im, p, &until)) return false;
     if (!(p->window.hi > up->t)) return true;
     p->window.lo = p->key[0] = up->t;
     p->key[1] = pair_order(p, up->t);
