@@ -95,6 +95,7 @@ tools_bench = \
     tools/bench/everyday_text.c \
     tools/bench/instructions.c tools/bench/instructions.h \
     tools/bench/json.c \
+    tools/bench/kernel_time.c tools/bench/kernel_time.h \
     tools/bench/measure.c \
     tools/bench/patches.c \
     tools/bench/print.c \

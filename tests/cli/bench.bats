@@ -212,6 +212,8 @@ counts() { jq 'del(.. | .seconds?)' <<<"$output"; }
     json 'all(.sets[0].cases[]; (.methods[0] | has("certificates") | not) and .scenes as $n |
         .methods[1].certificates | .count == $n and .hold == $n and .bytes.mean > 1000 and
         .verify_seconds.mean > 0 and .verify_over_solve > 1)'
+    json '[.sets[0].cases[].methods[1].certificates.kernel] | all(.elaborated == .proved) and
+        .[0].elaborated >= 1 and .[0].seconds.mean > 0 and .[5].proved == 1'
 }
 
 @test "a scene that changes has the answers and pairs of scenes built anew" {

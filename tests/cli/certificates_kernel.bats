@@ -49,6 +49,15 @@ elaborated() {
     elaborated meshes.proof
 }
 
+@test "a shaft in its bore is proved by the kernel, whose axes hold for strips of it" {
+    "$IMPINGE" pair 'cylinder radius=0.97 height=2 ! rotate rate=1' 'cylinder height=2' --gamma 0.003 \
+        --proof shaft.proof
+    elaborated shaft.proof
+    run -0 verify shaft.proof --elaborate again
+    [[ $output == "elaborated: 8 leaves to "* ]]
+    [ "$(sed 's/.* //' <<<"$output")" -lt 5000 ] # 2,290 on the day that this was written
+}
+
 @test "a door with two parameters is proved by the kernel, which says their ranges" {
     "$IMPINGE" solve "$top_srcdir/tools/data/door.json" --proof door.proof
     elaborated door.proof

@@ -116,6 +116,9 @@ typedef struct bench_spread {
 typedef struct bench_certificates {
     size_t count, hold;          /* those that hold without assuming anything */
     bench_spread bytes, seconds; /* size of the file, processor time of the verifier */
+    bool has_kernel;             /* impinge-verify-kernel is there */
+    size_t elaborated, proved;   /* in time (kernel_time.h); by the kernel then */
+    bench_spread kernel;         /* processor time of the kernel for these */
 } bench_certificates;
 
 /* How one method did on one case. */

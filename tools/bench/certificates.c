@@ -3,13 +3,13 @@
 #include <config.h>
 
 #include "tools/bench/columns.h"
+#include "tools/bench/kernel_time.h"
 
 #include <errno.h>
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
-#include <sys/resource.h>
 #include <unistd.h>
 
 #include "tools/cli/program.h"
@@ -28,6 +28,7 @@ typedef struct proving {
     FILE *file;            /* of one certificate after the other, removed when it is closed */
     double *bytes, *takes; /* of each scene: size, processor seconds of the verifier */
     size_t hold;
+    kernel_time kernel;
 } proving;
 
 static void put(void *context, const void *bytes, size_t size)
@@ -112,24 +113,15 @@ static imp_code prove(proving *p, size_t k, imp_result *result, double *seconds,
     return code;
 }
 
-/* Processor seconds of the programs that have run. */
-static double seconds_of_programs(void)
-{
-    struct rusage used;
-    getrusage(RUSAGE_CHILDREN, &used);
-    return (double)(used.ru_utime.tv_sec + used.ru_stime.tv_sec) +
-           1e-6 * (double)(used.ru_utime.tv_usec + used.ru_stime.tv_usec);
-}
-
 /* Verifies the certificate of scene `k`, which was written last. */
 static imp_code verify(proving *p, size_t k, imp_error *error)
 {
     char path[40];
     snprintf(path, sizeof path, "/dev/fd/%d", fileno(p->file));
     const char *const words[] = {p->verifier, "--quiet", path, NULL};
-    const double before = seconds_of_programs();
+    const double before = kernel_time_of_programs();
     const program_end end = program_run(words, PROGRAM_OUTPUT, false);
-    p->takes[k] = seconds_of_programs() - before;
+    p->takes[k] = kernel_time_of_programs() - before;
     p->hold += end.status == 0 && end.said != NULL && strcmp(end.said, "holds\n") == 0;
     const bool ran = end.error == 0 && end.said != NULL && end.status <= 1;
     if (!ran) {
@@ -138,6 +130,7 @@ static imp_code verify(proving *p, size_t k, imp_error *error)
                  end.error != 0 ? strerror(end.error) : "it ended before its answer");
     }
     free(end.said);
+    if (ran) kernel_time_add(&p->kernel, p->verifier, path);
     return ran ? IMP_SUCCESS : error->code;
 }
 
@@ -180,14 +173,22 @@ imp_code bench_measure_certificates(imp_registry *registry, const bench_case *c,
     if (p.file == NULL) snprintf(error->text, sizeof error->text, "no temporary file can be made");
     imp_code code = error->code;
     if (columns_make(&x, c->count) && p.bytes != NULL && p.takes != NULL && verifier != NULL &&
-        p.file != NULL)
+        p.file != NULL && kernel_time_begin(&p.kernel, c->count))
         code = fill(&p, request->repeats, &x, tally, error);
     if (code == IMP_SUCCESS) {
         columns_tally(&x, tally);
-        tally->certificates = (bench_certificates){
-            c->count, p.hold, columns_spread(p.bytes, c->count), columns_spread(p.takes, c->count)};
+        tally->certificates =
+            (bench_certificates){.count = c->count,
+                                 .hold = p.hold,
+                                 .bytes = columns_spread(p.bytes, c->count),
+                                 .seconds = columns_spread(p.takes, c->count),
+                                 .has_kernel = p.kernel.program != NULL,
+                                 .elaborated = p.kernel.elaborated,
+                                 .proved = p.kernel.proved,
+                                 .kernel = columns_spread(p.kernel.takes, p.kernel.elaborated)};
     }
     columns_free(&x);
+    kernel_time_end(&p.kernel);
     free(p.bytes);
     free(p.takes);
     free(verifier);

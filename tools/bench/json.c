@@ -47,16 +47,25 @@ static json_t *goal_json(const bench_result *result, size_t row)
                      words[bench_goal_of(result, row)]);
 }
 
+/* NULL: there is no kernel. */
+static json_t *kernel_json(const bench_certificates *c)
+{
+    if (!c->has_kernel) return NULL;
+    return json_pack("{s:I, s:I, s:o*}", "elaborated", (json_int_t)c->elaborated, "proved",
+                     (json_int_t)c->proved, "seconds",
+                     c->elaborated > 0 ? spread_json(&c->kernel) : NULL);
+}
+
 /* NULL: there are none. */
 static json_t *certificates_json(const bench_tally *t)
 {
     const bench_certificates *c = &t->certificates;
     if (c->count == 0) return NULL;
-    return json_pack("{s:I, s:I, s:o, s:o, s:o, s:o}", "count", (json_int_t)c->count, "hold",
+    return json_pack("{s:I, s:I, s:o, s:o, s:o, s:o, s:o*}", "count", (json_int_t)c->count, "hold",
                      (json_int_t)c->hold, "bytes", spread_json(&c->bytes), "bytes_a_pair",
                      output_json_number(c->bytes.mean / t->pairs.mean), "verify_seconds",
                      spread_json(&c->seconds), "verify_over_solve",
-                     output_json_number(bench_verify_over_solve(t)));
+                     output_json_number(bench_verify_over_solve(t)), "kernel", kernel_json(c));
 }
 
 static json_t *row_json(const bench_result *result, size_t at)

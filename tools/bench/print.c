@@ -3,6 +3,7 @@
 #include <config.h>
 
 #include "tools/bench/bench.h"
+#include "tools/bench/kernel_time.h"
 
 #include <math.h>
 #include <stdio.h>
@@ -98,6 +99,12 @@ static void print_certificates(const bench_tally *t)
            c->bytes.mean, c->bytes.mean / t->pairs.mean, cell_seconds(c->seconds.mean, false).text,
            bench_verify_over_solve(t));
     printf("; %zu of %zu hold\n", c->hold, c->count);
+    if (!c->has_kernel) return;
+    printf("    kernel: %zu of %zu elaborated within %d s", c->elaborated, c->count,
+           KERNEL_TIME_LIMIT);
+    if (c->elaborated > 0)
+        printf(", %zu proved, in %s", c->proved, cell_seconds(c->kernel.mean, false).text);
+    puts("");
 }
 
 static void print_goal(const bench_result *result, size_t row)
