@@ -43,6 +43,7 @@ core_surface = \
     core/surface/carried.c core/surface/carried.h \
     core/surface/clocked.c core/surface/clocked.h \
     core/surface/formula_text.c core/surface/formula_text.h \
+    core/surface/held.c core/surface/held.h \
     core/surface/instance.c core/surface/instance.h \
     core/surface/instance_words.c \
     core/surface/region.c core/surface/region.h \
@@ -205,7 +206,7 @@ core_broad_phase = \
     core/broad_phase/candidates.c core/broad_phase/candidates.h \
     core/broad_phase/candidates_part.c \
     core/broad_phase/collect_frames.c core/broad_phase/collect_glances.c \
-    core/broad_phase/collect_half_planes.c \
+    core/broad_phase/collect_half_planes.c core/broad_phase/collect_holds.c \
     core/broad_phase/frame_list.h \
     core/broad_phase/collect_pairs.c \
     core/broad_phase/collect_roots.c \

@@ -39,6 +39,7 @@ check_suites = \
     tests/unit/test_slips \
     tests/unit/test_slip_pairs \
     tests/unit/test_slip_planes \
+    tests/unit/test_held \
     tests/unit/test_glances \
     tests/unit/test_screw_slips \
     tests/unit/test_half_planes \
@@ -545,6 +546,8 @@ tests_unit_test_alloc_failure_SOURCES = tests/unit/test_alloc_failure.c tests/su
 tests_unit_test_alloc_failure_LDFLAGS = $(alloc_failure_ldflags)
 tests_unit_test_linked_in_SOURCES = tests/unit/test_linked_in.c tests/support/alloc_failure.c
 tests_unit_test_linked_in_LDFLAGS = $(alloc_failure_ldflags)
+tests_unit_test_held_SOURCES = tests/unit/test_held.c tests/support/alloc_failure.c
+tests_unit_test_held_LDFLAGS = $(alloc_failure_ldflags)
 tests_unit_test_set_values_SOURCES = tests/unit/test_set_values.c tests/support/alloc_failure.c
 tests_unit_test_set_values_LDFLAGS = $(alloc_failure_ldflags)
 tests_unit_test_steady_state_SOURCES = tests/unit/test_steady_state.c tests/support/alloc_failure.c \

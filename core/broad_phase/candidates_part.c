@@ -32,8 +32,11 @@ static candidate_span span_of(const candidate_pair *pairs, size_t count, int sid
 static candidate *own_candidate(candidate *slot, const candidate *from, imp_stats *stats)
 {
     if (slot->tree != NULL) return slot;
-    *slot = (candidate){
-        .body = from->body, .surface = from->surface, .left_out = from->left_out, .eval_error = -1};
+    *slot = (candidate){.body = from->body,
+                        .surface = from->surface,
+                        .left_out = from->left_out,
+                        .held = from->held,
+                        .eval_error = -1};
     if (from->half != NULL) {
         slot->half = arena_store_room(NULL, sizeof *slot->half); /* its list has no store */
         if (slot->half == NULL) return NULL;

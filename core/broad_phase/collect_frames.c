@@ -72,7 +72,8 @@ static bool any_has_frame(const collection *all)
     bool any = false;
     for (size_t k = 0; k < list->pair_count && !any; ++k)
         any = motion_of(&list->pairs[k]) > 0 || may_turn_within(all, &list->pairs[k]) ||
-              frames_may_have_half_planes(all, &list->pairs[k]);
+              frames_may_have_half_planes(all, &list->pairs[k]) ||
+              frames_may_be_held(all, &list->pairs[k]);
     return any;
 }
 
@@ -82,23 +83,22 @@ static bool any_has_frame(const collection *all)
 static bool are_equal(const frame *x, const surface_view *y)
 {
     const double moment = x->view.moment;
-    return x->made.half == NULL && x->view.left_out == y->left_out &&
+    return x->made.half == NULL && x->view.left_out == y->left_out && x->view.held == y->held &&
            (moment == y->moment || (isnan(moment) && isnan(y->moment)));
 }
 
-/* Returns the candidate's frame, made now unless it exists. *found NONE: a limit was reached
- * first. */
-static imp_code find_frame(collection *all, frame_list *frames, const candidate *c,
-                           const surface_view *view, size_t *found, imp_error *error)
+imp_code frames_find(collection *all, frame_list *frames, const candidate *c,
+                     const surface_view *view, size_t *found, imp_error *error)
 {
     const size_t of = (size_t)(c - all->list->candidates);
     for (*found = frames->first[of]; *found != NONE; *found = frames->at[*found].next)
         if (are_equal(&frames->at[*found], view)) return IMP_SUCCESS;
     frame *made = frame_list_next(frames);
     if (made == NULL) return error_set_memory(error);
-    *made = (frame){of, frames->first[of], *view, *c, {.from = INFINITY}};
+    *made = (frame){
+        .of = of, .next = frames->first[of], .view = *view, .made = *c, .seen = {.from = INFINITY}};
     bool exists = true;
-    if (view->left_out != c->left_out || !isnan(view->moment)) {
+    if (view->left_out != c->left_out || view->held > 0 || !isnan(view->moment)) {
         if (collection_must_end(all)) return IMP_SUCCESS;
         const imp_code code = collection_make_tree(all, view, &made->made, &exists, error);
         if (code != IMP_SUCCESS) return code;
@@ -181,7 +181,7 @@ static imp_code rest_pair(collection *all, frame_list *frames, size_t k, double 
     for (int j = 0; j < 2 && code == IMP_SUCCESS; ++j) {
         surface_view view = frames->at[of_pair[j]].view;
         view.moment = times.lo;
-        code = find_frame(all, frames, p->side[j], &view, &of_pair[j], error);
+        code = frames_find(all, frames, p->side[j], &view, &of_pair[j], error);
         if (of_pair[j] == NONE) return code;
     }
     if (slip > all->list->slip) all->list->slip = slip;
@@ -201,13 +201,17 @@ static imp_code find_frames(collection *all, frame_list *frames, bool *done, imp
         *done = k % PAIRS_PER_CHECK != PAIRS_PER_CHECK - 1 || !collection_must_end(all);
         for (int side = 0; side < 2 && *done && code == IMP_SUCCESS; ++side) {
             const candidate *c = p->side[side];
-            const surface_view view = {c->body, c->surface, c->left_out + motion, NAN};
-            code = find_frame(all, frames, c, &view, &frames->of_pair[k][side], error);
+            const surface_view view = {c->body, c->surface, c->left_out + motion, 0, NAN};
+            code = frames_find(all, frames, c, &view, &frames->of_pair[k][side], error);
             *done = frames->of_pair[k][side] != NONE;
         }
         double slip = 0;
         if (code == IMP_SUCCESS && *done && may_turn_within(all, p)) {
             code = rest_pair(all, frames, k, &slip, error);
+            *done = frames->of_pair[k][0] != NONE && frames->of_pair[k][1] != NONE;
+        }
+        if (code == IMP_SUCCESS && *done && frames_may_be_held(all, p)) {
+            code = frames_hold_pair(all, frames, k, &slip, error);
             *done = frames->of_pair[k][0] != NONE && frames->of_pair[k][1] != NONE;
         }
         if (code == IMP_SUCCESS && *done && frames_may_have_half_planes(all, p))

@@ -16,6 +16,9 @@ typedef struct frame {
     surface_view view;
     candidate made;
     surface_glance seen; /* at the common times of a pair; from > to: not made yet */
+    bool is_looked_at;   /* for maps to hold */
+    size_t may_hold;     /* once looked at: first maps that may be held, all held alike */
+    double hold_slip;    /* surface_held_maps; length */
 } frame;
 
 #define NONE SIZE_MAX
@@ -30,6 +33,19 @@ typedef struct frame_list {
 
 /* Returns room for one more frame, which is not counted yet. NULL: no memory. */
 frame *frame_list_next(frame_list *frames);
+
+/* Returns the candidate's frame, made now unless it exists. *found NONE: a limit was reached
+ * first. */
+imp_code frames_find(collection *all, frame_list *frames, const candidate *c,
+                     const surface_view *view, size_t *found, imp_error *error);
+
+/* Whether maps of one of the pair's surfaces may be held. */
+bool frames_may_be_held(const collection *all, const candidate_pair *p);
+
+/* Gives pair k, unless it is searched at one moment, frames in which the first maps of surfaces
+ * that these turn within themselves are held, and adds what that slips to *slip. */
+imp_code frames_hold_pair(collection *all, frame_list *frames, size_t k, double *slip,
+                          imp_error *error);
 
 /* Makes the roots of the pair's frames. *times: those of both; lo > hi: there are none. */
 imp_code frames_make_roots(collection *all, const frame_list *frames, size_t k, time_window *times,

@@ -13,11 +13,12 @@
  * scene_groups.c holds who ignores whom, scene_memory.c counts its bytes, scene_options.c checks
  * what is asked of it, scene_trees.c makes the trees of its surfaces. */
 
-/* A surface without its last maps, for trees in a frame that moves with these. */
+/* A surface without its last maps, for trees in a frame that moves with these, and with its first
+ * maps held (core/surface/held.h). */
 typedef struct inner {
     struct inner *next;
     surface *surface;
-    size_t left_out;
+    size_t left_out, held;
 } inner;
 
 typedef struct member {

@@ -6,6 +6,7 @@
 
 #include "core/base/status.h"
 #include "core/scene/scene_internal.h"
+#include "core/surface/held.h"
 
 static void inner_free(const imp_scene *scene, inner *i)
 {
@@ -49,30 +50,33 @@ static tree *keep_tree(member *m, const tree_plan *plan, tree *made)
     return made;
 }
 
-static const surface *find_inner(const inner *i, size_t left_out)
+static const surface *find_inner(const inner *i, const tree_plan *plan)
 {
-    while (i != NULL && i->left_out != left_out) i = i->next;
+    while (i != NULL && (i->left_out != plan->left_out || i->held != plan->held)) i = i->next;
     return i != NULL ? i->surface : NULL;
 }
 
-/* Returns the surface without its last maps, made now if it is asked for first. NULL: no memory. */
-static const surface *surface_in_frame(const imp_scene *scene, member *m, size_t left_out,
+/* Returns the surface of the plan, made now if it is asked for first. NULL: no memory. */
+static const surface *surface_in_frame(const imp_scene *scene, member *m, const tree_plan *plan,
                                        tree_growth *growth)
 {
-    if (left_out == 0) return m->surface;
+    if (plan->left_out == 0 && plan->held == 0) return m->surface;
     inner *first = atomic_load_explicit(&m->inners, memory_order_acquire);
-    const surface *found = find_inner(first, left_out);
+    const surface *found = find_inner(first, plan);
     if (found != NULL) return found;
     inner *made = arena_store_room(scene->store, sizeof *made);
     if (made == NULL) return NULL;
-    *made = (inner){NULL, surface_new_inner(m->surface, surface_map_count(m->surface) - left_out),
-                    left_out};
+    const size_t maps = surface_map_count(m->surface) - plan->left_out;
+    *made = (inner){NULL,
+                    plan->held > 0 ? surface_new_held(m->surface, maps, plan->held)
+                                   : surface_new_inner(m->surface, maps),
+                    plan->left_out, plan->held};
     if (made->surface == NULL) {
         arena_store_free_room(scene->store, made);
         return NULL;
     }
     do {
-        found = find_inner(first, left_out);
+        found = find_inner(first, plan);
         if (found != NULL) {
             inner_free(scene, made);
             return found;
@@ -81,6 +85,8 @@ static const surface *surface_in_frame(const imp_scene *scene, member *m, size_t
     } while (!atomic_compare_exchange_weak_explicit(&m->inners, &first, made, memory_order_release,
                                                     memory_order_acquire));
     growth->bytes += sizeof *made + surface_bytes(made->surface);
+    for (size_t k = 1; k <= plan->held; ++k)
+        growth->bytes += instance_bytes(surface_origin(made->surface, k));
     return made->surface;
 }
 
@@ -93,7 +99,7 @@ imp_code scene_tree(imp_scene *scene, size_t body, size_t index, const tree_plan
     tree_growth own = {.watch = growth->watch};
     *found = find_tree(atomic_load_explicit(&m->trees, memory_order_acquire), plan);
     if (*found != NULL) return IMP_SUCCESS;
-    const surface *s = surface_in_frame(scene, m, plan->left_out, growth);
+    const surface *s = surface_in_frame(scene, m, plan, growth);
     if (s == NULL) return error_set_memory(error);
     tree_plan stored = *plan;
     stored.store = scene->store;

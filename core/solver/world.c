@@ -7,6 +7,8 @@
 #include <math.h>
 #include <string.h>
 
+#include "core/surface/held.h"
+
 static const surface *piece_of(const imp_scene *scene, const imp_side *at)
 {
     const surface *s = scene_surface(scene, at->body, at->surface);
@@ -45,17 +47,21 @@ static imp_code turn_normal(const surface *s, size_t maps, const witness *found,
     return IMP_SUCCESS;
 }
 
-/* Computes one side of a witness in world space: the search's point or, if maps were left out, the
- * point under all maps. */
+/* Computes one side of a witness in world space: the search's point or, if maps were left out or
+ * held, the point under all maps. */
 static imp_code place_side(const imp_scene *scene, const candidate *of, const witness *found,
                            int side, double t, imp_side *at, imp_error *error)
 {
     *at = (imp_side){of->body,       of->surface,    found->piece[side],
                      found->u[side], found->v[side], {0, 0, 0}};
     memcpy(at->point, found->point[side].x, sizeof at->point);
-    if (of->left_out == 0) return IMP_SUCCESS;
+    if (of->left_out == 0 && of->held == 0) return IMP_SUCCESS;
     const surface *s = piece_of(scene, at);
-    const imp_status status = surface_eval(s, 1, (double[3]){at->u, at->v, t}, at->point, NULL);
+    const size_t maps = surface_map_count(s) - of->left_out;
+    imp_status status = IMP_STATUS_OK;
+    if (of->held > 0) status = surface_held_place(s, maps, t, found->point[side].x, &at->u, &at->v);
+    if (status == IMP_STATUS_OK)
+        status = surface_eval(s, 1, (double[3]){at->u, at->v, t}, at->point, NULL);
     return status == IMP_STATUS_OK ? IMP_SUCCESS : fault(s, status, t, error);
 }
 
@@ -77,10 +83,11 @@ imp_code world_witness_of(const imp_scene *scene, const candidate_pair *both, co
     in_world->gap = found->gap;
     memcpy(in_world->normal, found->normal.x, sizeof in_world->normal);
     const size_t left_out = both->side[0]->left_out;
-    if (left_out == 0) return IMP_SUCCESS;
+    const bool is_held = both->side[0]->held + both->side[1]->held > 0;
+    if (left_out == 0 && !is_held) return IMP_SUCCESS;
     const double gap = distance_of(in_world->side);
     in_world->gap = gap <= most ? gap : found->gap_upper;
-    if (!found->has_normal) return IMP_SUCCESS;
+    if (!found->has_normal || left_out == 0) return IMP_SUCCESS;
     const surface *s = piece_of(scene, &in_world->side[0]);
     return turn_normal(s, surface_map_count(s) - left_out, found, t, in_world, error);
 }

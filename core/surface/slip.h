@@ -39,6 +39,12 @@ imp_status slip_find(const slip_input *q, const imp_region *times, double *slip)
 imp_status slip_follow_plane(const slip_input *q, const imp_region *times, imp_model *rise,
                              double *tilt);
 
+/* Counts how many of the first maps together only turn s within itself, and bounds their slip from
+ * where it is at the moment `then`. */
+imp_status slip_first_maps(const surface *s, bool of_pieces, const imp_model bare[3],
+                           const imp_region *times, const imp_region *then, size_t *maps,
+                           double *slip);
+
 /* slip_find for a screw. It goes on until *slip is at most `enough`, or gives up: INFINITY. */
 imp_status slip_find_screw(const slip_input *q, const imp_region *times, double enough,
                            double *slip);

@@ -38,10 +38,9 @@ static imp_status slip_of_first(const surface *s, size_t maps, const imp_symmetr
     return slip_find(&q, times, slip);
 }
 
-/* Counts how many of the first maps together only turn s within itself, and bounds their slip. */
-static imp_status first_maps_within(const surface *s, bool of_pieces, const imp_model bare[3],
-                                    const imp_region *times, const imp_region *then, size_t *maps,
-                                    double *slip)
+imp_status slip_first_maps(const surface *s, bool of_pieces, const imp_model bare[3],
+                           const imp_region *times, const imp_region *then, size_t *maps,
+                           double *slip)
 {
     imp_symmetry found;
     imp_status status = surface_closed_symmetry(s, of_pieces, &found);
@@ -128,7 +127,7 @@ imp_status surface_pair_slip(const surface *const s[2], bool of_pieces, const im
     for (int k = 0; k < 2; ++k) {
         *asked = k;
         const imp_status status =
-            first_maps_within(s[k], of_pieces, bare[k], times, &then, &still[k], &own[k]);
+            slip_first_maps(s[k], of_pieces, bare[k], times, &then, &still[k], &own[k]);
         if (status != IMP_STATUS_OK) return status;
     }
     if (still[0] < s[0]->map_count || still[1] < s[1]->map_count) {

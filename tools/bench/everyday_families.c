@@ -36,6 +36,10 @@
     "{'type':'rotate','axis':[1,2,3],'angle':[0.5]},{'type':'rotate','axis':[1,2,3],'angle':[0.2]" \
     "}"
 
+/* Lays what stands along z along y. */
+#define LAID "{'type':'rotate','axis':[1,0,0],'angle':[1.5707963267948966]}"
+#define PUT(AT) "{'type':'translate','offset':[[" AT "]]}"
+
 /* Takes x, y and z to (2,-1,2)/3, (2,2,-1)/3 and (-1,2,2)/3, in which coordinates the motions that
  * follow are written, as CAD exports them. */
 #define INCLINE "{'type':'rotate','axis':[1,1,1],'angle':[-1.0471975511965976]}"
@@ -238,4 +242,25 @@ const everyday_family everyday_families[] = {
     {"shaft slides in its bore, turned", CYLINDER("1", "2", "0,0,0"), INCLINE,
      CYLINDER("~1", "3", "0,0,0"), INCLINE "," TURN(INCLINED, "20") "," MOVE("-0.1,0.2,0.2"),
      BOND_NONE, 0, false, FIVE, 50, "", ""},
+    {"can slides and spins on a disc, turned", DISC("1.9", "0,0,0"),
+     INCLINE "," TURN(INCLINED, "-2.3"), CAN("0.31", "0.8", "0.6,0.3,@0.4"),
+     INCLINE "," TURN_AT(INCLINED, "5.1", "0.6,0,0.3") "," MOVE("-0.4,0.2,-0.4"), BOND_NONE, 0,
+     false, FIVE, 500, "", ""},
+    /* turning within themselves while they move */
+    {"roller with ends on a table", FLOOR, TUMBLE, CAN("0.3", "0.9", "0,0,0"),
+     TURN(Z_AXIS, "-3") "," LAID "," PUT("-0.7,0,@0.3") "," MOVE("0.9,0,0"), BOND_PARENT, 0, false,
+     FIVE, 50, "", ""},
+    {"flanged wheel on its rail", BOX("3,0.15,0.3", "0,0,-0.15"), TUMBLE,
+     CAN("0.4", "0.2", "0,0,0") "," CAN("0.5", "0.05", "0,0,~-0.125"),
+     TURN(Z_AXIS, "-2") "," LAID "," PUT("-0.4,0,@0.4") "," MOVE("0.8,0,0"), BOND_PARENT, 0, false,
+     FIVE, 50, "", ""},
+    {"fast spindle beside a box", BOX("0.5,1,1", "@0.45,0,0.02"), "", CAN("0.2", "0.8", "0,0,0"),
+     TURN(Z_AXIS, "500") "," MOVE("0,0.4,0"), BOND_NONE, 0, false, FIVE, 50, "", ""},
+    {"board that is drawn over a roller", CAN("0.3", "0.9", "0,0,0"), TURN(Z_AXIS, "6") "," LAID,
+     BOX("3,1,0.1", "0,0,@0.35"), MOVE("1,0,0"), BOND_NONE, 0, false, FIVE, 50, "", ""},
+    {"tyre on a table", FLOOR, TUMBLE, TORUS("0.75", "0.25"),
+     TURN(Z_AXIS, "-1") "," LAID "," PUT("-0.5,0,@1") "," MOVE("1,0,0"), BOND_PARENT, 0, false,
+     FIVE, 50, "", ""},
+    {"roller under a sheet that is drawn", SHEET, MOVE("0.5,0,0"), CAN("0.3", "0.9", "0,0,0"),
+     TURN(Z_AXIS, "20") "," LAID "," PUT("0,0,-0.3"), BOND_NONE, 0, false, FIVE, 50, "", ""},
     {NULL, "", "", "", "", BOND_NONE, 0, false, "", 0, "", ""}};

@@ -1,0 +1,329 @@
+/* SPDX-FileCopyrightText: The Impinge authors
+ * SPDX-License-Identifier: Apache-2.0 */
+#include <config.h>
+
+#include <impinge/model.h>
+#include <stdarg.h>
+#include <string.h>
+
+#include "core/scene/scene.h"
+#include "core/surface/held.h"
+#include "core/surface/region.h"
+#include "tests/support/alloc_failure.h"
+#include "tests/support/query_helpers.h"
+
+/* Surfaces that turn within themselves while they move at random are as far from others, and touch
+ * them when, as if they did not turn; and where they touch is a point of theirs, at that time. */
+
+enum { SCENES = 60, POINTS = 40, TEXT = 1200 };
+
+static imp_registry *registry;
+
+static void open_registry(void) { registry = query_registry(); }
+
+static void close_registry(void) { imp_registry_free(registry); }
+
+/* --- Scenes ----------------------------------------------------------------------------------- */
+
+/* Closed about z, some in pieces. */
+static const char *const rounds[] = {"cylinder radius=0.4 height=0.8 ends=true",
+                                     "cylinder radius=0.3 height=0.5",
+                                     "cone ends=true",
+                                     "cone",
+                                     "torus major_radius=0.5 minor_radius=0.2",
+                                     "disc radius=0.5",
+                                     "capsule radius=0.3 from=0,0,-0.4 to=0,0,0.4",
+                                     "ellipsoid radii=0.5,0.5,0.3"};
+static const char *const others[] = {"box size=1,0.8,0.6",
+                                     "plane origin=-2,-2,0 edge_u=4,0,0 edge_v=0,4,0",
+                                     "sphere radius=0.4",
+                                     "ellipsoid radii=0.6,0.4,0.3",
+                                     "torus major_radius=0.6 minor_radius=0.2",
+                                     "cylinder radius=0.3 height=1 ends=true"};
+
+static double part(uint64_t *random) { return random_between(random, -1, 1); }
+
+static void add(char *text, const char *format, ...)
+{
+    va_list of;
+    va_start(of, format);
+    vsnprintf(text + strlen(text), TEXT - strlen(text), format, of);
+    va_end(of);
+}
+
+static void add_spin(uint64_t *random, char *text)
+{
+    add(text, " ! rotate axis=0,0,%.17g rate=%.17g", random_bits(random) % 2 ? 1.0 : -2.0,
+        random_power(random, -1, 5) * part(random));
+}
+
+static void add_motion(uint64_t *random, double far, char *text)
+{
+    if (random_bits(random) % 2)
+        add(text, " ! rotate axis=%.17g,%.17g,%.17g angle=%.17g,%.17g", part(random), part(random),
+            part(random), 3 * part(random), random_bits(random) % 2 ? part(random) : 0.0);
+    add(text, " ! translate offset=[[%.17g,%.17g,%.17g],[%.17g,%.17g,%.17g]]", far * part(random),
+        far * part(random), far, part(random), part(random), -far * random_fraction(random));
+}
+
+/* One scene twice: the first with what only turns within itself, at any place among its maps that
+ * does not show. */
+typedef struct twins {
+    char a[2][3 * TEXT], b[2][3 * TEXT];
+} twins;
+
+static twins draw_twins(uint64_t *random)
+{
+    twins y;
+    char motion[2][TEXT] = {"", ""}, spin[2][TEXT] = {"", ""};
+    const char *const a = rounds[random_bits(random) % (sizeof rounds / sizeof *rounds)];
+    const size_t shapes = sizeof others / sizeof *others, k = random_bits(random) % shapes;
+    add_spin(random, spin[0]);
+    if (k >= shapes - 2) add_spin(random, spin[1]); /* the last two are round, too */
+    add_motion(random, 1.5, motion[0]);
+    if (random_bits(random) % 2) add_motion(random, 0.1, motion[1]);
+    for (int j = 0; j < 2; ++j) {
+        snprintf(y.a[j], sizeof y.a[j], "%s%s%s", a, j == 0 ? spin[0] : "", motion[0]);
+        snprintf(y.b[j], sizeof y.b[j], "%s%s%s", others[k], j == 0 ? spin[1] : "", motion[1]);
+    }
+    return y;
+}
+
+/* --- Answers ---------------------------------------------------------------------------------- */
+
+/* The point is where its parameters are. */
+static void check_side(const imp_scene *scene, const imp_side *side, double t)
+{
+    const imp_place at = {side->body, side->surface, side->piece};
+    const double p[3] = {side->u, side->v, t};
+    double x[3], inexact[3];
+    ck_assert_int_eq(imp_piece_eval(scene, at, 1, p, x, inexact, NULL), IMP_SUCCESS);
+    ck_assert_double_eq(query_distance(x, side->point), 0);
+}
+
+static imp_result touch(const char *a, const char *b, double gamma)
+{
+    imp_error error;
+    imp_scene *scene = imp_scene_from_pair(registry, a, b, &error);
+    ck_assert_msg(scene != NULL, "%s | %s: %s", a, b, error.text);
+    imp_options options = imp_options_default(scene);
+    options.gamma = gamma;
+    options.max_pairs = 20000;
+    imp_result r = {.struct_size = sizeof r};
+    ck_assert_msg(imp_scene_solve(scene, &options, &r, &error) == IMP_SUCCESS, "%s | %s: %s", a, b,
+                  error.text);
+    if (r.verdict == IMP_VERDICT_CONTACT) {
+        check_side(scene, &r.a, r.t);
+        check_side(scene, &r.b, r.t);
+    }
+    if (r.verdict == IMP_VERDICT_CONTACT)
+        ck_assert_msg(query_distance(r.a.point, r.b.point) <= gamma * (1 + 1e-9), "%s | %s: %g", a,
+                      b, query_distance(r.a.point, r.b.point));
+    imp_scene_free(scene);
+    return r;
+}
+
+static imp_clearance measured(const char *a, const char *b)
+{
+    imp_error error = {IMP_SUCCESS, ""};
+    imp_scene *scene = imp_scene_from_pair(registry, a, b, &error);
+    ck_assert_msg(scene != NULL, "%s", error.text);
+    imp_options options = imp_options_default(scene);
+    options.gamma = 1e-7;
+    options.max_pairs = 20000;
+    const imp_clearance_options asked = imp_clearance_options_default();
+    imp_query *query = imp_clearance_new(scene, &options, &asked, &error);
+    ck_assert_msg(query != NULL, "%s", error.text);
+    ck_assert_msg(imp_query_step(query, 0, &error) == IMP_SUCCESS, "%s | %s: %s", a, b, error.text);
+    imp_clearance answer = {.struct_size = (uint32_t)sizeof answer};
+    ck_assert_int_eq(imp_clearance_get(query, 0, &answer, NULL), IMP_SUCCESS);
+    if (answer.has_witness) {
+        check_side(scene, &answer.a, answer.t);
+        check_side(scene, &answer.b, answer.t);
+        ck_assert_double_le(query_distance(answer.a.point, answer.b.point),
+                            answer.upper * (1 + 1e-12));
+    }
+    imp_query_free(query);
+    imp_scene_free(scene);
+    return answer;
+}
+
+START_TEST(what_turns_within_itself_touches_when_it_would_at_rest)
+{
+    uint64_t random = suite_seed();
+    int touches = 0, clear = 0;
+    for (int n = 0; n < suite_times_at_least(SCENES); ++n) {
+        const twins y = draw_twins(&random);
+        const double gamma = random_power(&random, -20, -8);
+        const imp_clearance apart = measured(y.a[1], y.b[1]);
+        const imp_result r = touch(y.a[0], y.b[0], gamma), s = touch(y.a[1], y.b[1], gamma);
+        touches += r.verdict == IMP_VERDICT_CONTACT;
+        clear += r.verdict == IMP_VERDICT_CLEAR;
+        if (r.verdict == IMP_VERDICT_CONTACT)
+            ck_assert_msg(apart.lower <= gamma, "%s | %s", y.a[0], y.b[0]);
+        if (r.verdict == IMP_VERDICT_CLEAR)
+            ck_assert_msg(apart.upper >= 0.5 * gamma, "%s | %s", y.a[0], y.b[0]);
+        if (r.verdict == IMP_VERDICT_UNDECIDED || s.verdict != IMP_VERDICT_CONTACT) continue;
+        /* Nothing is nearer than gamma / 2 before t_lower; nor is what is known at rest. */
+        const imp_result first = touch(y.a[1], y.b[1], 0.5 * gamma);
+        if (first.verdict == IMP_VERDICT_CONTACT)
+            ck_assert_msg(r.t_lower <= first.t, "%s | %s: %.17g, %.17g", y.a[0], y.b[0], r.t_lower,
+                          first.t);
+    }
+    ck_assert_msg(touches > 5 && clear > 5, "%d touch, %d are clear", touches, clear);
+}
+END_TEST
+
+START_TEST(what_turns_within_itself_is_as_far_as_it_would_be_at_rest)
+{
+    uint64_t random = suite_seed();
+    int apart = 0;
+    for (int n = 0; n < suite_times_at_least(SCENES); ++n) {
+        const twins y = draw_twins(&random);
+        imp_clearance r[2];
+        for (int j = 0; j < 2; ++j) r[j] = measured(y.a[j], y.b[j]);
+        ck_assert_msg(r[0].lower <= r[1].upper + 1e-12 && r[1].lower <= r[0].upper + 1e-12,
+                      "%s | %s: [%.17g, %.17g], at rest [%.17g, %.17g]", y.a[0], y.b[0], r[0].lower,
+                      r[0].upper, r[1].lower, r[1].upper);
+        apart += r[0].lower > 0;
+    }
+    ck_assert_msg(apart > 5, "%d are apart", apart);
+}
+END_TEST
+
+/* --- Points ----------------------------------------------------------------------------------- */
+
+static const surface *piece_at(const surface *s, size_t k)
+{
+    return surface_piece_count(s) > 0 ? surface_piece(s, k) : s;
+}
+
+/* Points of the surface held, at any time, are points of the surface. */
+START_TEST(each_point_of_a_surface_held_is_one_of_the_surface)
+{
+    uint64_t random = suite_seed();
+    int held_maps = 0;
+    for (int n = 0; n < suite_times_at_least(SCENES); ++n) {
+        const twins y = draw_twins(&random);
+        imp_error error;
+        imp_scene *scene = imp_scene_from_pair(registry, y.a[0], y.b[0], &error);
+        ck_assert_msg(scene != NULL, "%s", error.text);
+        const surface *s = scene_surface(scene, 0, 0);
+        const imp_region times = region_make((double[3]){0, 0, 0}, (double[3]){0, 0, 1});
+        imp_model bare[3];
+        size_t held;
+        double slip;
+        for (int i = 0; i < 3; ++i) bare[i] = imp_between(-2, 2);
+        ck_assert_int_eq(surface_held_maps(s, bare, &times, 1e-9, &held, &slip), IMP_STATUS_OK);
+        ck_assert_uint_le(held, 1);
+        held_maps += (int)held;
+        surface *still = surface_new_held(s, surface_map_count(s), held);
+        ck_assert_ptr_nonnull(still);
+        for (int k = 0; k < POINTS && held > 0; ++k) {
+            const size_t count = surface_piece_count(s) > 0 ? surface_piece_count(s) : 1;
+            const size_t piece = random_bits(&random) % count;
+            const double t = random_fraction(&random);
+            double lo[3], hi[3], p[3], x[3], found[3];
+            surface_domain(piece_at(s, piece), lo, hi);
+            for (int j = 0; j < 2; ++j) p[j] = lo[j] + random_fraction(&random) * (hi[j] - lo[j]);
+            p[2] = t;
+            ck_assert_int_eq(surface_eval(piece_at(still, piece), 1, p, x, NULL), IMP_STATUS_OK);
+            ck_assert_int_eq(
+                surface_held_place(piece_at(s, piece), surface_map_count(s), t, x, &p[0], &p[1]),
+                IMP_STATUS_OK);
+            ck_assert_int_eq(surface_eval(piece_at(s, piece), 1, p, found, NULL), IMP_STATUS_OK);
+            ck_assert_msg(query_distance(x, found) <= 1e-13, "%s at %.17g: %g", y.a[0], t,
+                          query_distance(x, found));
+        }
+        surface_free(still);
+        imp_scene_free(scene);
+    }
+    ck_assert_int_gt(2 * held_maps, SCENES); /* not capsules */
+}
+END_TEST
+
+/* A turn beside the line, one by a little less than a rotation of it, and one of a box are not
+ * held. */
+START_TEST(what_turns_beside_its_line_is_not_held)
+{
+    static const char *const moving[] = {
+        "cylinder ends=true ! rotate axis=0,0,1 center=1e-9,0,0 rate=2",
+        "cylinder ! rotate axis=0,1e-9,1 rate=2",
+        "torus ! rotate axis=1,0,0 rate=2",
+        "box ! rotate axis=0,0,1 rate=2",
+        "cone ! translate velocity=0,0,1",
+        "cylinder ! scale factor=[2,2,2] ! rotate axis=0,0,1 rate=2"};
+    for (size_t n = 0; n < sizeof moving / sizeof *moving; ++n) {
+        imp_error error;
+        imp_scene *scene = imp_scene_from_pair(registry, moving[n], "sphere", &error);
+        ck_assert_msg(scene != NULL, "%s", error.text);
+        const imp_region times = region_make((double[3]){0, 0, 0}, (double[3]){0, 0, 1});
+        imp_model bare[3];
+        size_t held;
+        double slip;
+        for (int i = 0; i < 3; ++i) bare[i] = imp_between(-2, 2);
+        ck_assert_int_eq(
+            surface_held_maps(scene_surface(scene, 0, 0), bare, &times, 1e-12, &held, &slip),
+            IMP_STATUS_OK);
+        ck_assert_msg(held == 0, "%s", moving[n]);
+        imp_scene_free(scene);
+    }
+}
+END_TEST
+
+/* --- Memory ----------------------------------------------------------------------------------- */
+
+static const char *const wheel = "cylinder ends=true ! rotate axis=0,0,1 rate=5 ! translate "
+                                 "velocity=-2,0,0",
+                         *const post = "sphere radius=0.5 center=-2,0,0";
+
+/* The n-th allocation of a query that holds a map fails; it goes on when there is memory. */
+static bool query_failing_at(size_t n)
+{
+    imp_error error = {IMP_SUCCESS, ""};
+    imp_scene *scene = imp_scene_from_pair(registry, wheel, post, &error);
+    ck_assert_msg(scene != NULL, "%s", error.text);
+    const imp_options options = imp_options_default(scene);
+    imp_code code = IMP_SUCCESS;
+    alloc_failure_begin(n);
+    imp_query *query = imp_query_new(scene, &options, &error);
+    if (query != NULL) code = imp_query_step(query, 0, &error);
+    const bool failed = alloc_failure_end() && n > 0;
+    ck_assert_int_eq(code, IMP_SUCCESS);
+    ck_assert(query != NULL || error.code == IMP_ERROR_MEMORY);
+    if (query != NULL) {
+        const imp_result r = imp_query_result(query);
+        ck_assert_msg((r.reason == IMP_REASON_MEMORY) == failed, "failing allocation %zu: %d, %d",
+                      n, (int)r.verdict, (int)r.reason);
+        ck_assert_int_eq(imp_query_step(query, 0, NULL), IMP_SUCCESS);
+        ck_assert_int_eq(imp_query_result(query).verdict, IMP_VERDICT_CONTACT);
+    }
+    imp_query_free(query);
+    imp_scene_free(scene);
+    return failed;
+}
+
+START_TEST(a_query_that_holds_maps_and_runs_out_of_memory_can_go_on)
+{
+    ck_assert(!query_failing_at(0)); /* what the registry keeps for later is there then */
+    const size_t before = alloc_failure_live();
+    size_t n = 0;
+    for (bool failed = true; failed && n < 10000;) {
+        failed = query_failing_at(++n);
+        ck_assert_msg(alloc_failure_live() == before, "failing allocation %zu leaves %zd blocks", n,
+                      (ssize_t)(alloc_failure_live() - before));
+    }
+    ck_assert_uint_gt(n, 4);
+}
+END_TEST
+
+int main(void)
+{
+    const TTest *const tests[] = {what_turns_within_itself_touches_when_it_would_at_rest,
+                                  what_turns_within_itself_is_as_far_as_it_would_be_at_rest,
+                                  each_point_of_a_surface_held_is_one_of_the_surface,
+                                  what_turns_beside_its_line_is_not_held,
+                                  a_query_that_holds_maps_and_runs_out_of_memory_can_go_on};
+    return suite_main_with("held", tests, sizeof tests / sizeof tests[0], open_registry,
+                           close_registry);
+}
