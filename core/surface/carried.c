@@ -37,7 +37,8 @@ static void take_along(const imp_pose *pose, imp_model way[3], imp_model along[3
     }
 }
 
-void carried_turn(const imp_pose *pose, imp_model way[3])
+/* Turns a direction by the map of this pose, whose turn is an exact rotation. */
+static void turn(const imp_pose *pose, imp_model way[3])
 {
     imp_model along[3], turned[3];
     take_along(pose, way, along);
@@ -72,7 +73,7 @@ void carried_push(const imp_pose *pose, double d, carried *x)
 {
     for (int i = 0; i < 3; ++i) x->at[i] = imp_shift(x->at[i], -pose->pivot[i]);
     add_off(d, x->at, &x->off);
-    carried_turn(pose, x->at);
+    turn(pose, x->at);
     for (int i = 0; i < 3; ++i) x->at[i] = imp_add(x->at[i], pose->shift[i]);
 }
 
@@ -106,7 +107,7 @@ void carried_push_plane(const imp_pose *pose, double d, carried_plane *x)
 {
     const carried before = x->normal;
     add_off(d, x->normal.at, &x->normal.off);
-    carried_turn(pose, x->normal.at);
+    turn(pose, x->normal.at);
     lift(pose, &before, &x->normal, false, x);
 }
 
@@ -141,4 +142,18 @@ bool carried_exactly(const surface *s)
     for (size_t k = 0; k < s->map_count; ++k)
         if (!IMP_OFFERS(s->maps[k].type, rigid) || !map_turns_exactly(&s->maps[k])) return false;
     return true;
+}
+
+imp_status carried_through(const surface *s, const imp_region *times, carried *x, size_t count,
+                           imp_model way[][3])
+{
+    for (size_t k = 0; k < s->map_count; ++k) {
+        imp_pose pose;
+        double d;
+        const imp_status status = carried_pose(s, k, times, &pose, &d);
+        if (status != IMP_STATUS_OK) return status;
+        carried_push(&pose, d, x);
+        for (size_t i = 0; i < count; ++i) turn(&pose, way[i]);
+    }
+    return IMP_STATUS_OK;
 }

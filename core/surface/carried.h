@@ -61,8 +61,10 @@ void carried_pull(const imp_pose *pose, double d, carried *x);
 /* Moves the point back by R^-1 instead, and takes its error into the coordinates. */
 void carried_pull_truly(const imp_pose *pose, double d, carried *x);
 
-/* Turns a direction by the map of this pose, whose turn is an exact rotation. */
-void carried_turn(const imp_pose *pose, imp_model way[3]);
+/* Moves a point by all maps of the surface, and turns `count` directions, which are followed
+ * exactly where the maps' turns are exact rotations. IMP_STATUS_UNBOUNDED: a map has no pose. */
+imp_status carried_through(const surface *s, const imp_region *times, carried *x, size_t count,
+                           imp_model way[][3]);
 
 /* Moves the plane by the map of this pose and d, or back by its transposed turn. */
 void carried_push_plane(const imp_pose *pose, double d, carried_plane *x);

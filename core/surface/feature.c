@@ -18,16 +18,9 @@ imp_status feature_carry(const surface *s, const imp_symmetry *of, const imp_reg
         center.at[i] = imp_num(of->center[i]);
         f->axis[i] = imp_num(of->axis[i]);
     }
-    for (size_t k = 0; k < s->map_count; ++k) {
-        imp_pose pose;
-        double d;
-        const imp_status status = carried_pose(s, k, times, &pose, &d);
-        if (status != IMP_STATUS_OK) return status;
-        carried_push(&pose, d, &center);
-        carried_turn(&pose, f->axis);
-    }
+    const imp_status status = carried_through(s, times, &center, 1, &f->axis);
     memcpy(f->center, center.at, sizeof f->center);
-    return IMP_STATUS_OK;
+    return status;
 }
 
 void feature_difference(const imp_model y[3], const imp_model x[3], imp_model way[3])

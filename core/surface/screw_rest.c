@@ -25,14 +25,8 @@ static imp_status heights_of(const surface *a, const imp_model bare[3], const fe
         axis[i] = imp_scale(q->axis[i], length);
         for (int j = 0; j < 3; ++j) turn[i][j] = imp_num(i == j);
     }
-    for (size_t k = 0; k < a->map_count; ++k) {
-        imp_pose pose;
-        double d;
-        const imp_status status = carried_pose(a, k, then, &pose, &d);
-        if (status != IMP_STATUS_OK) return status;
-        carried_push(&pose, d, &m);
-        for (int i = 0; i < 3; ++i) carried_turn(&pose, turn[i]);
-    }
+    const imp_status status = carried_through(a, then, &m, 3, turn);
+    if (status != IMP_STATUS_OK) return status;
     imp_model way[3];
     feature_difference(m.at, q->center, way);
     const imp_model height = imp_dot3(axis, way);
