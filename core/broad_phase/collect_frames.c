@@ -83,7 +83,8 @@ static bool any_has_frame(const collection *all)
 static bool are_equal(const frame *x, const surface_view *y)
 {
     const double moment = x->view.moment;
-    return x->made.half == NULL && x->view.left_out == y->left_out && x->view.held == y->held &&
+    return x->made.half == NULL && x->view.left_out == y->left_out &&
+           held_maps_are_equal(x->view.held, y->held) &&
            (moment == y->moment || (isnan(moment) && isnan(y->moment)));
 }
 
@@ -98,7 +99,7 @@ imp_code frames_find(collection *all, frame_list *frames, const candidate *c,
     *made = (frame){
         .of = of, .next = frames->first[of], .view = *view, .made = *c, .seen = {.from = INFINITY}};
     bool exists = true;
-    if (view->left_out != c->left_out || view->held > 0 || !isnan(view->moment)) {
+    if (view->left_out != c->left_out || view->held.count > 0 || !isnan(view->moment)) {
         if (collection_must_end(all)) return IMP_SUCCESS;
         const imp_code code = collection_make_tree(all, view, &made->made, &exists, error);
         if (code != IMP_SUCCESS) return code;
@@ -201,7 +202,7 @@ static imp_code find_frames(collection *all, frame_list *frames, bool *done, imp
         *done = k % PAIRS_PER_CHECK != PAIRS_PER_CHECK - 1 || !collection_must_end(all);
         for (int side = 0; side < 2 && *done && code == IMP_SUCCESS; ++side) {
             const candidate *c = p->side[side];
-            const surface_view view = {c->body, c->surface, c->left_out + motion, 0, NAN};
+            const surface_view view = {c->body, c->surface, c->left_out + motion, {0, 0}, NAN};
             code = frames_find(all, frames, c, &view, &frames->of_pair[k][side], error);
             *done = frames->of_pair[k][side] != NONE;
         }

@@ -40,7 +40,7 @@ static imp_code look(const collection *all, frame *f, imp_error *error)
     const imp_region times =
         region_make((double[3]){0, 0, r->lo[PARAMETER_T]}, (double[3]){0, 0, r->hi[PARAMETER_T]});
     const imp_status status =
-        surface_held_maps(s, bare, &times, 0.25 * all->slip_most, &f->may_hold, &f->hold_slip);
+        surface_held_maps(s, bare, &times, 0.25 * all->slip_most, &f->may_hold);
     return status == IMP_STATUS_OK ? IMP_SUCCESS : distance_fault(s, status, error);
 }
 
@@ -75,15 +75,15 @@ imp_code frames_hold_pair(collection *all, frame_list *frames, size_t k, double 
         frame *f = &frames->at[of_pair[side]];
         if (!isnan(f->view.moment)) return IMP_SUCCESS;
         code = look(all, f, error);
-        if (code == IMP_SUCCESS && f->may_hold > 0)
+        if (code == IMP_SUCCESS && f->may_hold.count > 0)
             code = slides_along(all, f, &frames->at[of_pair[!side]], &times, &slides[side], error);
     }
     for (int side = 0; side < 2 && code == IMP_SUCCESS; ++side) {
         const frame *f = &frames->at[of_pair[side]];
-        if (f->may_hold == 0 || slides[side]) continue;
+        if (f->may_hold.count == 0 || slides[side]) continue;
         surface_view view = f->view;
         const surface_glance seen = f->seen;
-        const double own = f->hold_slip;
+        const double own = f->may_hold.slip;
         view.held = f->may_hold;
         code = frames_find(all, frames, p->side[side], &view, &of_pair[side], error);
         if (code != IMP_SUCCESS || of_pair[side] == NONE) return code;

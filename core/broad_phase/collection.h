@@ -137,7 +137,7 @@ imp_code collection_use_frames(collection *all, bool *done, imp_error *error);
 typedef struct surface_view {
     size_t body, surface;
     size_t left_out; /* number of last maps left out */
-    size_t held;     /* number of first maps held at one moment */
+    held_maps held;  /* first maps held at one moment */
     double moment;   /* the only time, or NAN: all of the query's times */
 } surface_view;
 

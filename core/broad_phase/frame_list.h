@@ -17,8 +17,7 @@ typedef struct frame {
     candidate made;
     surface_glance seen; /* at the common times of a pair; from > to: not made yet */
     bool is_looked_at;   /* for maps to hold */
-    size_t may_hold;     /* once looked at: first maps that may be held, all held alike */
-    double hold_slip;    /* surface_held_maps; length */
+    held_maps may_hold;  /* once looked at: surface_held_maps */
 } frame;
 
 #define NONE SIZE_MAX

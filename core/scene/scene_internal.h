@@ -18,7 +18,8 @@
 typedef struct inner {
     struct inner *next;
     surface *surface;
-    size_t left_out, held;
+    size_t left_out;
+    held_maps held;
 } inner;
 
 typedef struct member {

@@ -52,7 +52,9 @@ static tree *keep_tree(member *m, const tree_plan *plan, tree *made)
 
 static const surface *find_inner(const inner *i, const tree_plan *plan)
 {
-    while (i != NULL && (i->left_out != plan->left_out || i->held != plan->held)) i = i->next;
+    while (i != NULL &&
+           (i->left_out != plan->left_out || !held_maps_are_equal(i->held, plan->held)))
+        i = i->next;
     return i != NULL ? i->surface : NULL;
 }
 
@@ -60,7 +62,7 @@ static const surface *find_inner(const inner *i, const tree_plan *plan)
 static const surface *surface_in_frame(const imp_scene *scene, member *m, const tree_plan *plan,
                                        tree_growth *growth)
 {
-    if (plan->left_out == 0 && plan->held == 0) return m->surface;
+    if (plan->left_out == 0 && plan->held.count == 0) return m->surface;
     inner *first = atomic_load_explicit(&m->inners, memory_order_acquire);
     const surface *found = find_inner(first, plan);
     if (found != NULL) return found;
@@ -68,8 +70,8 @@ static const surface *surface_in_frame(const imp_scene *scene, member *m, const 
     if (made == NULL) return NULL;
     const size_t maps = surface_map_count(m->surface) - plan->left_out;
     *made = (inner){NULL,
-                    plan->held > 0 ? surface_new_held(m->surface, maps, plan->held)
-                                   : surface_new_inner(m->surface, maps),
+                    plan->held.count > 0 ? surface_new_held(m->surface, maps, plan->held)
+                                         : surface_new_inner(m->surface, maps),
                     plan->left_out, plan->held};
     if (made->surface == NULL) {
         arena_store_free_room(scene->store, made);
@@ -85,7 +87,7 @@ static const surface *surface_in_frame(const imp_scene *scene, member *m, const 
     } while (!atomic_compare_exchange_weak_explicit(&m->inners, &first, made, memory_order_release,
                                                     memory_order_acquire));
     growth->bytes += sizeof *made + surface_bytes(made->surface);
-    for (size_t k = 1; k <= plan->held; ++k)
+    for (size_t k = 1; k <= plan->held.count; ++k)
         growth->bytes += instance_bytes(surface_origin(made->surface, k));
     return made->surface;
 }

@@ -59,21 +59,35 @@ double surface_held_moment(const surface *s)
     return lo[2] > 0 ? lo[2] : hi[2] < 0 ? hi[2] : 0;
 }
 
+/* A slip below this part of the distance of points from the line is less than what the rounding of
+ * a parameter moves them. */
+#define ROUNDING_OF_PLACES 0x1p-44
+
+/* The least power of two that is greater. */
+static double power_above(double x)
+{
+    int exponent;
+    frexp(x, &exponent);
+    return x < INFINITY ? ldexp(1, exponent) : INFINITY;
+}
+
 /* The lemma of slip_first_maps says why P(t0) s may stand for P(t) s. */
 imp_status surface_held_maps(const surface *s, const imp_model bare[3], const imp_region *times,
-                             double enough, size_t *held, double *slip)
+                             double enough, held_maps *held)
 {
     const double moment = surface_held_moment(s);
     const imp_region then = slip_at_times(times, moment, moment);
     size_t maps = 0, moving = 0;
-    *held = 0;
-    *slip = 0;
+    double slip = 0;
+    *held = (held_maps){0, 0};
     if (!carried_exactly(s) || !is_round(s)) return IMP_STATUS_OK;
     imp_status status = count_moving(s, times, surface_map_count(s), &moving);
     if (status == IMP_STATUS_OK && moving > 0)
-        status = slip_first_maps(s, true, bare, times, &then, &maps, slip);
+        status = slip_first_maps(s, true, bare, times, &then, &maps, &slip);
     if (status == IMP_STATUS_OK && maps > 0) status = count_moving(s, times, maps, &moving);
-    if (status == IMP_STATUS_OK && maps > 0 && *slip <= enough) *held = moving;
+    const double more = power_above(slip + ROUNDING_OF_PLACES * surface_size_upper(bare));
+    if (status == IMP_STATUS_OK && maps > 0 && moving > 0 && more <= enough)
+        *held = (held_maps){moving, more};
     return status == IMP_STATUS_UNBOUNDED ? IMP_STATUS_OK : status;
 }
 
@@ -88,17 +102,17 @@ static bool add_held(surface *made, shared_instance *map, double moment)
     return is_added;
 }
 
-surface *surface_new_held(const surface *s, size_t maps, size_t held)
+surface *surface_new_held(const surface *s, size_t maps, held_maps held)
 {
     const double moment = surface_held_moment(s);
     surface *made = surface_new_in(s->store, s->origin);
     bool ok = made != NULL;
     for (size_t k = 0; k < maps && ok; ++k)
-        ok = k < held ? add_held(made, s->maps[k].origin, moment)
-                      : surface_add_instance(made, s->maps[k].origin) == IMP_SUCCESS;
+        ok = k < held.count ? add_held(made, s->maps[k].origin, moment)
+                            : surface_add_instance(made, s->maps[k].origin) == IMP_SUCCESS;
     if (ok) memcpy(made->lo, s->lo, sizeof made->lo), memcpy(made->hi, s->hi, sizeof made->hi);
     ok = ok && surface_divide(made) == IMP_SUCCESS;
-    if (ok) surface_set_body(made, s->body, s->index);
+    if (ok) surface_set_body(made, s->body, s->index), made->held_slip = held.slip;
     if (ok) return made;
     surface_free(made);
     return NULL;

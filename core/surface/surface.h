@@ -228,6 +228,18 @@ imp_status surface_bare_ball(const surface *s, const imp_region *region, double 
 imp_status surface_ball_slip(const surface *a, const surface *b, const imp_region *times,
                              double moment, double enough, double *slip);
 
+/* The first `count` maps of a surface that are held at one moment (held.h). Its points are then
+ * within `slip`, a power of two or 0, of what they stand for; length. */
+typedef struct held_maps {
+    size_t count;
+    double slip;
+} held_maps;
+
+static inline bool held_maps_are_equal(held_maps x, held_maps y)
+{
+    return x.count == y.count && x.slip == y.slip;
+}
+
 /* A plane, and an upper bound of the distance from it of the points of a part of a surface, before
  * its maps. */
 typedef struct surface_plane {

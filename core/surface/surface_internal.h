@@ -38,6 +38,7 @@ struct surface {
     size_t piece_count;
     const surface *whole; /* the surface that it is a piece of, or NULL */
     const surface *outer; /* its type and first maps belong to this surface, or NULL */
+    double held_slip;     /* of a surface whose first maps are held: added to errors of points */
 };
 
 /* Surfaces of the pieces of one surface, each made when it is first asked for: a scene of a large

@@ -104,7 +104,10 @@ static imp_status eval_under(const surface *s, size_t maps, size_t n, const doub
 
 imp_status surface_eval(const surface *s, size_t n, const double *p, double *x, double *error)
 {
-    return eval_under(s, s->map_count, n, p, x, error);
+    const imp_status status = eval_under(s, s->map_count, n, p, x, error);
+    for (size_t k = 0; k < 3 * n && error != NULL && s->held_slip > 0; ++k)
+        error[k] = sum_upper(error[k], s->held_slip);
+    return status;
 }
 
 imp_status surface_move_outward(const surface *s, size_t maps, double t, size_t n, double *x)

@@ -85,7 +85,7 @@ typedef struct tree_plan {
     double t_start, t_end; /* within the surface's domain */
     node_audit audit;      /* may be NULL */
     size_t left_out;       /* number of the surface's last maps that are not applied */
-    size_t held;           /* number of its first maps that are held at one moment */
+    held_maps held;        /* its first maps that are held at one moment */
     arena_store *store;    /* of blocks for its nodes; NULL: the heap; no difference otherwise */
 } tree_plan;
 
