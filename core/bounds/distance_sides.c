@@ -29,7 +29,9 @@ static imp_code find_slip(const node *own, const node *other, const surface_plan
 {
     imp_model bare[3];
     *slip = INFINITY;
-    if ((plane == NULL && other->many != NULL) || !node_bare_models(own, bare)) return IMP_SUCCESS;
+    if ((plane == NULL && other->many != NULL) || !surface_may_slip(own->surface))
+        return IMP_SUCCESS;
+    if (!node_bare_models(own, bare)) return IMP_SUCCESS;
     const imp_region all = all_of(times);
     const surface *a = own->surface, *b = other->surface;
     const imp_status status =
@@ -62,12 +64,9 @@ static imp_code find_carry(const distance_sides *of, int side, const time_window
     if (of->root[!side]->many != NULL || !own->bounded) return IMP_SUCCESS;
     if (surface_common_maps(own->surface, other) > 0) return IMP_SUCCESS;
     for (int i = 0; i < 3; ++i) size += own->hi[i] - own->lo[i];
-    carry_base base = {moment, true};
-    imp_status status = surface_carry_slip(other, own->lo, own->hi, &all, &base, slip);
-    of->slips->is_bare[side] = *slip <= MERE_ROUNDING * size;
-    base.is_bare = false;
-    if (status == IMP_STATUS_OK && !of->slips->is_bare[side])
-        status = surface_carry_slip(other, own->lo, own->hi, &all, &base, slip);
+    const imp_status status =
+        surface_carry_slip_least(other, own->lo, own->hi, &all, moment, MERE_ROUNDING * size,
+                                 &of->slips->is_bare[side], slip);
     return status == IMP_STATUS_OK ? IMP_SUCCESS : distance_fault(other, status, error);
 }
 

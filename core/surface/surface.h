@@ -202,6 +202,15 @@ typedef struct carry_base {
 imp_status surface_carry_slip(const surface *b, const double lo[3], const double hi[3],
                               const imp_region *times, const carry_base *base, double *slip);
 
+/* Does that from where b is before its maps, if the slip is then at most `mere` (*is_bare), else
+ * from where it is at the moment. */
+imp_status surface_carry_slip_least(const surface *b, const double lo[3], const double hi[3],
+                                    const imp_region *times, double moment, double mere,
+                                    bool *is_bare, double *slip);
+
+/* Whether surface_slip may find a bound for points of a. */
+bool surface_may_slip(const surface *a);
+
 /* Computes how the center of b's symmetry moves from where it is at the base: models of t over the
  * region. Precondition: surface_carry_slip knows b. */
 imp_status surface_carry_way(const surface *b, const imp_region *region, const carry_base *base,

@@ -43,26 +43,61 @@ static imp_status base_of(const surface *b, const imp_symmetry *of, const carry_
  * x| <= |x - c(t)| |n(t) - n0| of x - (c(t) - c0), taken back by M0, holds for x at t. Roundings: 8
  * of the inverse length, product, sum, product. */
 PAD_COVERS(16, 8 + 1 + 1 + 1);
+static imp_status slip_from(const surface *b, const feature *now, const double lo[3],
+                            const double hi[3], const carry_base *base, double *slip)
+{
+    feature then;
+    imp_model turn[3];
+    *slip = INFINITY;
+    const imp_status status = base_of(b, &now->of, base, &then);
+    if (status != IMP_STATUS_OK) return status == IMP_STATUS_UNBOUNDED ? IMP_STATUS_OK : status;
+    if (!are_finite(now->center)) return IMP_STATUS_OK;
+    if (now->of.kind == IMP_SYMMETRY_ABOUT_POINT) return *slip = 0, IMP_STATUS_OK;
+    if (symmetry_is_screw(&now->of)) return IMP_STATUS_OK; /* S may turn without moving along */
+    feature_difference(now->axis, then.axis, turn);
+    const double angle = surface_size_upper(turn) * feature_inverse_length(&now->of) + AXES_OFF;
+    const double most = padded_upper(angle * feature_reach_upper(lo, hi, now->center), 16);
+    if (most >= 0) *slip = most;
+    return IMP_STATUS_OK;
+}
+
+/* Finds center and axis at the times. *known false: they are not, or move in another way. */
+static imp_status carry_at(const surface *b, const imp_region *times, feature *now, bool *known)
+{
+    imp_symmetry found;
+    *known = false;
+    if (!carried_exactly(b)) return IMP_STATUS_OK;
+    imp_status status = surface_symmetry(b, &found);
+    if (status == IMP_STATUS_OK) status = feature_carry(b, &found, times, now);
+    *known = status == IMP_STATUS_OK;
+    return status == IMP_STATUS_UNBOUNDED ? IMP_STATUS_OK : status;
+}
+
 imp_status surface_carry_slip(const surface *b, const double lo[3], const double hi[3],
                               const imp_region *times, const carry_base *base, double *slip)
 {
-    imp_symmetry found;
-    feature now, then;
-    imp_model turn[3];
+    feature now;
+    bool known;
     *slip = INFINITY;
-    if (!carried_exactly(b)) return IMP_STATUS_OK;
-    imp_status status = surface_symmetry(b, &found);
-    if (status == IMP_STATUS_OK) status = feature_carry(b, &found, times, &now);
-    if (status == IMP_STATUS_OK) status = base_of(b, &found, base, &then);
-    if (status != IMP_STATUS_OK) return status == IMP_STATUS_UNBOUNDED ? IMP_STATUS_OK : status;
-    if (!are_finite(now.center)) return IMP_STATUS_OK;
-    if (found.kind == IMP_SYMMETRY_ABOUT_POINT) return *slip = 0, IMP_STATUS_OK;
-    if (symmetry_is_screw(&found)) return IMP_STATUS_OK; /* S may turn without moving along */
-    feature_difference(now.axis, then.axis, turn);
-    const double angle = surface_size_upper(turn) * feature_inverse_length(&found) + AXES_OFF;
-    const double most = padded_upper(angle * feature_reach_upper(lo, hi, now.center), 16);
-    if (most >= 0) *slip = most;
-    return IMP_STATUS_OK;
+    const imp_status status = carry_at(b, times, &now, &known);
+    return known ? slip_from(b, &now, lo, hi, base, slip) : status;
+}
+
+imp_status surface_carry_slip_least(const surface *b, const double lo[3], const double hi[3],
+                                    const imp_region *times, double moment, double mere,
+                                    bool *is_bare, double *slip)
+{
+    feature now;
+    bool known;
+    carry_base base = {moment, true};
+    *is_bare = false;
+    *slip = INFINITY;
+    imp_status status = carry_at(b, times, &now, &known);
+    if (!known) return status;
+    status = slip_from(b, &now, lo, hi, &base, slip);
+    *is_bare = *slip <= mere;
+    base.is_bare = false;
+    return *is_bare || status != IMP_STATUS_OK ? status : slip_from(b, &now, lo, hi, &base, slip);
 }
 
 imp_status surface_carry_way(const surface *b, const imp_region *region, const carry_base *base,

@@ -261,6 +261,8 @@ imp_status slip_find(const slip_input *q, const imp_region *times, double *slip)
     return status == IMP_STATUS_UNBOUNDED ? IMP_STATUS_OK : status;
 }
 
+bool surface_may_slip(const surface *a) { return slip_moves_rigidly(a); }
+
 imp_status surface_slip(const surface *a, const surface *b, const imp_model bare[3],
                         const imp_region *times, double moment, double enough, double *slip)
 {
