@@ -152,6 +152,7 @@ noinst_HEADERS += \
 noinst_LTLIBRARIES += plugins/libcommon.la
 plugins_libcommon_la_SOURCES = \
     plugins/common/axis.c plugins/common/axis.h \
+    plugins/common/cone_distance.c plugins/common/cone_distance.h \
     plugins/common/course.c plugins/common/course.h \
     plugins/common/course_internal.h \
     plugins/common/course_table.c \
@@ -178,6 +179,7 @@ plugins_libcommon_la_LDFLAGS =
 plugins_bend_la_LIBADD = plugins/libcommon.la
 plugins_box_la_LIBADD = plugins/libcommon.la
 plugins_capsule_la_LIBADD = plugins/libcommon.la
+plugins_cone_la_LIBADD = plugins/libcommon.la
 plugins_disc_la_LIBADD = plugins/libcommon.la
 plugins_keyframes_la_LIBADD = plugins/libcommon.la
 plugins_plane_la_LIBADD = plugins/libcommon.la
@@ -217,6 +219,7 @@ plugins_libpatch_la_SOURCES = \
     plugins/patch/patch_text.c plugins/patch/patch_text.h \
     plugins/patch/pieces.c plugins/patch/pieces.h \
     plugins/patch/rough_points.c plugins/patch/rough_points.h \
+    plugins/patch/round_profile.c plugins/patch/round_profile.h \
     plugins/patch/spline_patch.c plugins/patch/spline_patch.h \
     plugins/patch/triangle.c plugins/patch/triangle.h
 plugins_libpatch_la_CFLAGS = $(AM_CFLAGS) $(UNROLL_CFLAGS)
@@ -227,7 +230,7 @@ plugins_extrusion_la_LIBADD = plugins/libpatch.la plugins/libcommon.la
 plugins_ffd_la_LIBADD = plugins/libpatch.la
 plugins_nurbs_la_LIBADD = plugins/libpatch.la
 plugins_product_la_LIBADD = plugins/libpatch.la
-plugins_revolution_la_LIBADD = plugins/libpatch.la
+plugins_revolution_la_LIBADD = plugins/libpatch.la plugins/libcommon.la
 plugins_sweep_la_LIBADD = plugins/libpatch.la
 
 # Files of triangles and polygons.

@@ -4,6 +4,7 @@
 #include "plugins/common/publish.h"
 #include "plugins/patch/curve.h"
 #include "plugins/patch/patch_text.h"
+#include "plugins/patch/round_profile.h"
 
 #include <impinge/formula.h>
 
@@ -19,6 +20,7 @@ static const imp_parameter parameters[] = {
 
 typedef struct revolution_instance {
     patch *profile;
+    round_profile round;
     double center[3];
 } revolution_instance;
 
@@ -39,6 +41,9 @@ static imp_status revolution_create(const imp_value *values, void **self, imp_cr
         revolution_destroy(s);
         return IMP_STATUS_INTERNAL;
     }
+    const imp_value *points = &values[PROFILE], *weights = &values[WEIGHTS];
+    s->round = round_profile_of(points->number, imp_is_given(weights) ? weights->number : NULL,
+                                points->extent[0]);
     imp_copy_vector(s->center, &values[CENTER]);
     *self = s;
     return IMP_STATUS_OK;
@@ -64,6 +69,25 @@ static void revolution_formula(const void *self, imp_model u, imp_model v, imp_m
 }
 IMP_SURFACE_FORMULA(revolution_formula)
 
+static imp_model revolution_gap(const void *self, imp_model x, imp_model y, imp_model z,
+                                imp_model t)
+{
+    const revolution_instance *s = self;
+    (void)t;
+    const imp_model m[3] = {imp_shift(x, -s->center[0]), imp_shift(y, -s->center[1]),
+                            imp_shift(z, -s->center[2])};
+    return round_profile_distance(&s->round, m);
+}
+IMP_DISTANCE_FORMULA(revolution_gap)
+
+static imp_status revolution_symmetry(const void *self, imp_symmetry *symmetry)
+{
+    const revolution_instance *s = self;
+    round_profile_symmetry(&s->round, symmetry);
+    memcpy(symmetry->center, s->center, sizeof s->center);
+    return IMP_STATUS_OK;
+}
+
 static imp_status revolution_write_formula(const void *self, const imp_text_sink *to)
 {
     curve_write(((const revolution_instance *)self)->profile, 'p', 'v', to);
@@ -74,6 +98,8 @@ static imp_status revolution_write_formula(const void *self, const imp_text_sink
 
 static const imp_surface_type revolution = {
     IMP_SURFACE_FIELDS_OF("revolution", revolution, revolution_formula, revolution_destroy),
+    .distance = revolution_gap_distance,
+    .symmetry = revolution_symmetry,
     .write_formula = revolution_write_formula,
     .summary = "surface of revolution about the z axis; its profile is a Bezier curve",
     .equation = "center + (r(v) cos u, r(v) sin u, z(v)), (r,z)(v) = sum_i B_i(v) w_i profile_i / "

@@ -12,7 +12,8 @@
 #include "tests/support/suite.h"
 
 /* Distances of the built types from random moving points against the exact ones in numbers of 200
- * bits: from whole cylinders, cones, planes and threads, which are no nearer than their parts. */
+ * bits: from whole cylinders, cones, planes, circles and threads, which are no nearer than their
+ * parts. */
 
 enum { REGIONS = 400, POINTS = 6, PATIENCE = 20 };
 
@@ -105,7 +106,46 @@ static number box(const type_arguments *a, const number x[3])
     return num_abs(num_sub(x[0], num(center - size / 2)));
 }
 
+/* A control point [r, z] of the profile that turns. */
+static number profile(const type_arguments *a, size_t point, size_t coordinate)
+{
+    const number x = argument_at(a, "profile", 2 * point + coordinate);
+    return coordinate == 0 ? num_abs(x) : x;
+}
+
+/* From the line through the first point and the second. */
+static number turned_line(const type_arguments *a, const number x[3])
+{
+    const number out = num_sub(profile(a, 1, 0), profile(a, 0, 0)),
+                 up = num_sub(profile(a, 1, 1), profile(a, 0, 1));
+    const number q = num_sub(across(a, x), profile(a, 0, 0)),
+                 z = num_sub(from(a, "center", x, 2), profile(a, 0, 1));
+    const number apart = num_sub(num_mul(q, up), num_mul(z, out));
+    return num_div(num_abs(apart), num_hypot(out, up));
+}
+
+/* From the circle whose quarter goes upward from its outermost point. */
+static number turned_circle(const type_arguments *a, const number x[3])
+{
+    const number q = num_sub(across(a, x), profile(a, 2, 0)),
+                 z = num_sub(from(a, "center", x, 2), profile(a, 0, 1));
+    const number radius = num_sub(profile(a, 0, 0), profile(a, 2, 0));
+    return num_abs(num_sub(num_hypot(q, z), radius));
+}
+
+#define TURNED(PROFILE) "{\"profile\": " PROFILE "}"
+#define TURNED_AT(PROFILE) "{\"profile\": " PROFILE ", \"center\": [?, ?, ?]}"
+#define QUARTER(PROFILE) "{\"profile\": " PROFILE ", \"weights\": [1, 1, 2], \"center\": [?, ?, ?]}"
+
 static const row rows[] = {
+    {"revolution", TURNED_AT("[[2, -1], [2, 1]]"), turned_line},
+    {"revolution", TURNED_AT("[[2, 0.5], [1, 0.5], [3, 0.5]]"), turned_line},
+    {"revolution", TURNED_AT("[[1, 0], [2, 1], [2, 1]]"), turned_line},
+    {"revolution", TURNED_AT("[[-4, 0.5], [-0.5, 0.25]]"), turned_line},
+    {"revolution", TURNED("[[1, 0], [1.0009765625, 64]]"), turned_line},
+    {"revolution", QUARTER("[[1, 0], [1, 1], [0, 1]]"), turned_circle},
+    {"revolution", QUARTER("[[3, -1], [3, 0], [2, 0]]"), turned_circle},
+    {"revolution", QUARTER("[[-6, 2], [-6, 4], [-4, 4]]"), turned_circle},
     {"sphere", "{\"radius\": +, \"center\": [?, ?, ?]}", sphere},
     {"sphere", "{\"radius\": 1}", sphere},
     {"cylinder", "{\"radius\": +, \"height\": +, \"center\": [?, ?, ?]}", cylinder},

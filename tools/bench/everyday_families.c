@@ -71,6 +71,9 @@
     "{'type':'trajectory','times':[0,0.5,1],'positions':[[0,0,1],[0,0,0],[0,0,1]],"                \
     "'accelerations':[[0,0,-2],[0,0,-2]]}"
 
+#define TURNED(PROFILE) "{'type':'revolution','profile':[" PROFILE "]}"
+#define TURNED_ARC(PROFILE) "{'type':'revolution','weights':[1,1,2],'profile':[" PROFILE "]}"
+#define VASE TURNED("[0.6,-1],[1.5,-0.4],[0,0.4],[0.6,1]")
 #define EXTRUSION(PROFILE, HEIGHT)                                                                 \
     "{'type':'extrusion','degree':1,'profile':[" PROFILE "],'vector':[0,0," HEIGHT "]"
 #define HEXAGON                                                                                    \
@@ -154,6 +157,24 @@ const everyday_family everyday_families[] = {
      1000, "", ""},
     {"capsules that slide along", CAPSULE("0.5", "0,0,-1", "0,0,1"), "",
      CAPSULE("0.5", "@1,0,-1", "@1,0,1"), MOVE("0,0,0.5"), BOND_NONE, 0, false, FIVE, 100, "", ""},
+    /* turned profiles */
+    {"vase that turns in a vase", VASE, TURN(Z_AXIS, "-7"),
+     TURNED("[~0.6,-1],[~1.5,-0.4],[~0,0.4],[~0.6,1]"), TURN(Z_AXIS, "20"), BOND_NONE, 0, false,
+     "1234", 2000, "", ""},
+    {"vases that turn beside each other", VASE, TURN(Z_AXIS, "20"), VASE,
+     TURN(Z_AXIS, "-7") ",{'type':'translate','offset':[[@1.9,0,0.1]]}", BOND_NONE, 0, false, FIVE,
+     100, "", ""},
+    {"turned roller that whirls in a bore", TURNED("[1,-1],[1,1]"), TURN(Z_AXIS, "2"),
+     TURNED("[~0.9,-0.5],[~0.9,0.5]"),
+     TURN(Z_AXIS, "20") ",{'type':'translate','offset':[[0.1,0,0]]}," TURN(Z_AXIS, "5"), BOND_NONE,
+     0, false, FIVE, 500, "", ""},
+    {"turned plug in a cone", CONE("0"), "", TURNED("[0.75,0.25],[0.5,0.5]"),
+     TURN(Z_AXIS, "20") ",{'type':'translate','offset':[[0,0,~0]]}", BOND_NONE, 0, false, FIVE, 100,
+     "", ""},
+    {"ball in a groove of two arcs",
+     TURNED_ARC("[1,-0.2],[0.8,-0.2],[0.8,0]") "," TURNED_ARC("[1,0.2],[0.8,0.2],[0.8,0]"), "",
+     SPHERE("~0.2", "1,0,0"), TURN_AT("1,0,0", "5", "1,0,0") "," TURN(Z_AXIS, "4"), BOND_NONE, 0,
+     false, FIVE, 100, "", ""},
     /* meshes */
     {"shaft of 64 sides in a round bore", CYLINDER("1", "2", "0,0,0"), "",
      LATHE("p 64 ~1:-0.75 ~1:0.75"), TURN(Z_AXIS, "3"), BOND_NONE, 0, false, "1234", 20000, "", ""},
