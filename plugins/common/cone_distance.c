@@ -69,8 +69,24 @@ static bool cone_near(double r, double h, const imp_model m[3], imp_model *gap)
     return true;
 }
 
+/* Beyond the apex. Lemma. Where r q <= |h| (-y), (q, y) is in the polar cone of the half line of
+ * the section, whose direction is (r, |h|): its nearest point is the apex. A bound of q^2 + (z -
+ * h)^2's root is one of the distance. False: the points are not all there. */
+static bool cone_above(double r, double h, const imp_model m[3], imp_model *gap)
+{
+    const imp_model up = imp_shift(m[2], -h), from[3] = {m[0], m[1], up};
+    const double beyond = h > 0 ? up.lo : -up.hi;
+    if (!(beyond > 0)) return false;
+    const imp_model across = sum_of_squares(m, 2);
+    const double least = imp_round_down(fabs(h) * beyond);
+    if (!(imp_round_up(r * greatest_root_upper(&across)) <= least)) return false;
+    *gap = beyond_radius(sum_of_squares(from, 3), 0);
+    return true;
+}
+
 imp_model cone_distance(double radius, double height, const imp_model m[3])
 {
     imp_model gap;
+    if (cone_above(radius, height, m, &gap)) return gap;
     return cone_near(radius, height, m, &gap) ? gap : cone_beyond(radius, height, m);
 }

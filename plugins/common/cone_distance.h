@@ -5,10 +5,9 @@
 
 #include <impinge/model.h>
 
-/* Returns a bound (imp_surface_type.distance) of how far points m are from the endless double cone
- * about the z axis that has this radius at z = 0 and its apex at z = height, which is not 0. Its
- * size is at most that of (|height| q - radius y) / (height^2 + radius^2)^(1/2), q from the axis, y
- * from the apex along the axis, toward the circle. */
+/* Returns a bound (imp_surface_type.distance) of how far points m are from the cone about the z
+ * axis that has this radius at z = 0 and its apex at z = height, which is not 0, and has no end on
+ * the other side. */
 imp_model cone_distance(double radius, double height, const imp_model m[3]);
 
 #endif

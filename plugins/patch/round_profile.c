@@ -55,23 +55,32 @@ static imp_interval number(double x) { return imp_interval_make(x, x); }
 
 /* --- Lines ------------------------------------------------------------------------------------ */
 
-/* How far the control point (q, z) is from the line. Of a cone (h q - r y) / (h^2 + r^2)^(1/2) with
- * the y of cone_distance. */
-static double line_off(const round_profile *line, double q, double z)
+/* How far the control point (q, z) is from the half line |h| q = r y, y >= 0 of a cone, with the y
+ * of cone_distance, at most: for y >= 0 it is | |h| q - r y| / |h| from the half line's point as
+ * high, and that by r from its point as far from the axis; else it is some way from the apex. */
+static double cone_off(const round_profile *line, double q, double z)
 {
-    if (line->kind == ROUND_CYLINDER) return imp_interval_mag(difference(q, line->radius));
-    if (line->kind == ROUND_PLANE) return imp_interval_mag(difference(z, line->height));
     const imp_interval h = number(line->apex), r = number(line->radius);
     const imp_interval below = imp_interval_sub(h, difference(z, line->height));
     const imp_interval y = line->apex > 0 ? below : imp_interval_neg(below);
     const imp_interval apart =
         imp_interval_sub(imp_interval_mul(imp_interval_abs(h), number(q)), imp_interval_mul(r, y));
-    const imp_interval square = imp_interval_add(imp_interval_sqr(h), imp_interval_sqr(r));
-    return imp_interval_mag(imp_interval_div(apart, imp_interval_sqrt(square)));
+    const imp_interval wide = number(imp_larger(fabs(line->apex), line->radius));
+    const imp_interval to_apex = imp_interval_add(imp_interval_abs(number(q)), imp_interval_abs(y));
+    return imp_interval_mag(y.lo >= 0 ? imp_interval_div(apart, wide) : to_apex);
 }
 
-/* Lemma. The weights are positive, so that the curve is in the convex hull of its control points: a
- * linear function of (q, z) is on the curve no greater in size than its greatest at these. */
+/* How far the control point (q, z) is from the line, at most. */
+static double line_off(const round_profile *line, double q, double z)
+{
+    if (line->kind == ROUND_CYLINDER) return imp_interval_mag(difference(q, line->radius));
+    if (line->kind == ROUND_PLANE) return imp_interval_mag(difference(z, line->height));
+    return cone_off(line, q, z);
+}
+
+/* Lemma. The weights are positive, so that the curve is in the convex hull of its control points.
+ * The distance from a line or a half line is a convex function: on the curve it is no greater than
+ * its greatest at these. */
 static double lines_off(const outline_points *c, const round_profile *line)
 {
     double most = 0;
@@ -198,10 +207,10 @@ static imp_model distance_of_kind(const round_profile *p, const imp_model m[3])
 
 /* Lemma. Let (q, z) be the distance of a point of space from the axis and its height; two points
  * are at least as far apart as theirs are. Those of the surface are the profile's, or, where it
- * crosses the axis, mirrored there, as planes and circles about points of the axis are. Let D be
- * the signed distance of (q, z) from the line or the circle, of which the profile is within `off`:
- * the surface is at least |D| - off away. Functions above find a G of the sign of D, |G| <= |D|.
- * The distance g with that sign and |g| = max(|G| - off, 0) is within `off` of G. */
+ * crosses the axis, mirrored there, as planes and circles about points of the axis are. Let (q, z)
+ * be D away from the line, half line or circle, of which the profile is within `off`: the surface
+ * is at least D - off away. The function above finds a G, |G| <= D. The distance g with the sign of
+ * G and |g| = max(|G| - off, 0) is within `off` of G. */
 imp_model round_profile_distance(const round_profile *p, const imp_model m[3])
 {
     if (p->kind == ROUND_NONE) return imp_unbounded(0);

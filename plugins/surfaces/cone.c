@@ -51,7 +51,7 @@ static void cone_formula(const void *self, imp_model u, imp_model v, imp_model t
 }
 IMP_SURFACE_FORMULA(cone_formula)
 
-/* The distance from the endless double cone; from a disc or the base, from its plane. */
+/* The distance from the cone without its base; from a disc or the base, from its plane. */
 static imp_model cone_gap(const void *self, imp_model x, imp_model y, imp_model z, imp_model t)
 {
     const capped *s = self;

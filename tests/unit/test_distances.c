@@ -50,10 +50,13 @@ static number torus(const type_arguments *a, const number x[3])
     return num_abs(num_sub(to_middle, argument_at(a, "minor_radius", 0)));
 }
 
-/* From the line through (r, 0) and (0, h). */
+/* From the half line from (0, h) through (r, 0). */
 static number cone(const type_arguments *a, const number x[3])
 {
     const number h = argument_at(a, "height", 0), r = argument_at(a, "radius", 0);
+    const number q = across(a, x), y = num_sub(h, from(a, "center", x, 2));
+    const number along = num_add(num_mul(r, q), num_mul(h, y));
+    if (num_near(h) != 0 && num_is_less(along, num(0))) return num_hypot(q, y);
     const number up = num_mul(r, num_sub(from(a, "center", x, 2), h));
     return num_div(num_abs(num_add(num_mul(h, across(a, x)), up)), num_hypot(h, r));
 }
@@ -113,13 +116,20 @@ static number profile(const type_arguments *a, size_t point, size_t coordinate)
     return coordinate == 0 ? num_abs(x) : x;
 }
 
-/* From the line through the first point and the second. */
+/* From the line through the first point and the second, from the axis on. */
 static number turned_line(const type_arguments *a, const number x[3])
 {
     const number out = num_sub(profile(a, 1, 0), profile(a, 0, 0)),
                  up = num_sub(profile(a, 1, 1), profile(a, 0, 1));
     const number q = num_sub(across(a, x), profile(a, 0, 0)),
                  z = num_sub(from(a, "center", x, 2), profile(a, 0, 1));
+    if (num_near(out) != 0) {
+        const number above = num_add(z, num_div(num_mul(profile(a, 0, 0), up), out));
+        const number along = num_add(num_mul(out, across(a, x)), num_mul(up, above));
+        const bool is_beyond =
+            num_near(out) > 0 ? num_is_less(along, num(0)) : num_is_less(num(0), along);
+        if (is_beyond) return num_hypot(across(a, x), above);
+    }
     const number apart = num_sub(num_mul(q, up), num_mul(z, out));
     return num_div(num_abs(apart), num_hypot(out, up));
 }

@@ -220,6 +220,9 @@ const everyday_family everyday_families[] = {
      MOVE("0,0,-4"), BOND_NONE, 0, true, FIVE, 50, "", ""},
     {"ball that falls on a pole", "{'type':'ellipsoid','radii':[2,2,1]}", "",
      SPHERE("0.5", "0,0,3.5"), MOVE("0,0,-4"), BOND_NONE, 0, true, FIVE, 50, "", ""},
+    {"ball that falls on an apex", "{'type':'cone','height':2}", PLACE,
+     SPHERE("0.5", "0.1,0,4.4898979485566357"), MOVE("0,0,-4") "," SAME_PLACE, BOND_NONE, 0, true,
+     FIVE, 50, "", ""},
     /* parts of machines */
     {"nut of two starts", THREADS("~1", "4"), "", THREADS("1", "1.5"), "", BOND_NONE, 0, false,
      "1234", 2000, "", ""},
