@@ -357,7 +357,8 @@ cmake_DATA = core/ImpingeConfig.cmake core/ImpingeConfigVersion.cmake
 $(cmake_DATA): %: %.in Makefile
 	$(AM_V_GEN)$(MKDIR_P) $(@D) && sed -e 's|@libdir[@]|$(libdir)|g' \
 	  -e 's|@includedir[@]|$(includedir)|g' -e 's|@plugindir[@]|$(plugindir)|g' \
-	  -e 's|@PACKAGE_VERSION[@]|$(PACKAGE_VERSION)|g' -e 's|@CMAKE_LIBS[@]|$(LIBS)|g' $< >$@
+	  -e 's|@PACKAGE_VERSION[@]|$(PACKAGE_VERSION)|g' -e 's|@CMAKE_LIBS[@]|$(LIBS)|g' \
+	  -e 's|@zlib_package[@]|$(zlib_package)|g' $< >$@
 CLEANFILES += $(cmake_DATA)
 EXTRA_DIST += $(cmake_DATA:%=%.in)
 

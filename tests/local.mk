@@ -684,6 +684,7 @@ EXTRA_DIST += \
     tests/fuzz/array.d/plain \
     tests/fuzz/array.d/stored \
     tests/fuzz/array.d/whole \
+    tests/fuzz/array.dict \
     tests/fuzz/cache.d/codes \
     tests/fuzz/cache.d/cut \
     tests/fuzz/cache.d/empty \

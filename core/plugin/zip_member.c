@@ -135,8 +135,9 @@ static imp_code find_entry(directory *d, const char *name, entry *found)
         if (++count > 1) return refuse(d->fault, "it has two arrays of that name");
     }
     if (count == 1) return IMP_SUCCESS;
-    snprintf(d->fault->text, sizeof d->fault->text, "it has no such array%s%s",
-             list.text[0] != '\0' ? ", but " : "", list.text);
+    refuse(d->fault, "it has no such array");
+    if (list.text[0] != '\0')
+        text_append(d->fault->text, sizeof d->fault->text, ", but %s", list.text);
     return IMP_ERROR_SCENE;
 }
 

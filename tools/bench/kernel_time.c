@@ -25,12 +25,16 @@ bool kernel_time_begin(kernel_time *k, size_t most)
     const char *folder = getenv("TMPDIR");
     *k = (kernel_time){.program = program_beside("impinge-verify-kernel")};
     if (k->program == NULL) return true;
-    k->takes = calloc(most + 1, sizeof *k->takes);
     if (folder == NULL || strlen(folder) > 32) folder = "/tmp";
     snprintf(k->folder, sizeof k->folder, "%s/impinge-bench-XXXXXX", folder);
-    if (mkdtemp(k->folder) == NULL) k->folder[0] = '\0';
+    if (mkdtemp(k->folder) == NULL) {
+        free(k->program);
+        *k = (kernel_time){.program = NULL};
+        return true;
+    }
     snprintf(k->file, sizeof k->file, "%s/long", k->folder);
-    return k->takes != NULL && k->folder[0] != '\0';
+    k->takes = calloc(most + 1, sizeof *k->takes);
+    return k->takes != NULL;
 }
 
 /* Runs the program; *takes becomes its processor seconds. Returns whether its status is 0. */

@@ -17,8 +17,8 @@ typedef struct kernel_time {
     size_t elaborated, proved;
 } kernel_time;
 
-/* Looks for the kernel, for at most that many certificates. False: no memory, or no temporary
- * folder. kernel_time_end is called in any case. */
+/* Looks for the kernel, for at most that many certificates; without a folder for temporary files it
+ * counts as missing. False: no memory. kernel_time_end is called in any case. */
 bool kernel_time_begin(kernel_time *k, size_t most);
 
 /* Elaborates the certificate of that path within the limit, and has the kernel prove it. */
