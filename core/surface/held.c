@@ -22,15 +22,55 @@ static int orbit_of(const surface *s)
 }
 
 /* Whether s is closed about one line, along whose circles each piece has a parameter. */
-static bool is_round(const surface *s)
+static bool is_round(const surface *s, imp_symmetry *line)
 {
-    imp_symmetry found;
     const size_t count = surface_piece_count(s);
-    if (surface_closed_symmetry(s, true, &found) != IMP_STATUS_OK) return false;
-    if (found.kind != IMP_SYMMETRY_ABOUT_LINE) return false;
+    if (surface_closed_symmetry(s, true, line) != IMP_STATUS_OK) return false;
+    if (line->kind != IMP_SYMMETRY_ABOUT_LINE) return false;
     bool is = count > 0 || orbit_of(s) >= 0;
     for (size_t k = 0; k < count && is; ++k) is = orbit_of(surface_piece(s, k)) >= 0;
     return is;
+}
+
+enum { LINE_POINTS = 3, LINE_NUMBERS = 3 * LINE_POINTS };
+
+/* Moves the center, the end of the axis, and a point beside the line by the first `maps` maps. */
+static bool line_at(const surface *s, size_t maps, const imp_symmetry *line, double t,
+                    double x[LINE_NUMBERS])
+{
+    surface first = *s;
+    int least = 0;
+    first.map_count = maps;
+    for (int i = 0; i < 3; ++i) {
+        x[i] = x[6 + i] = line->center[i];
+        x[3 + i] = line->center[i] + line->axis[i];
+        if (fabs(line->axis[i]) < fabs(line->axis[least])) least = i;
+    }
+    x[6 + least] += 1;
+    return surface_move_outward(&first, 0, t, LINE_POINTS, x) == IMP_STATUS_OK;
+}
+
+#define SURELY_MOVED 0x1p-20
+
+/* Whether some of the first maps seem to turn about the line, and keep it where it is, by a look at
+ * three times: few do, and slips cost a hundred times as much. */
+static bool seems_held(const surface *s, const imp_symmetry *line, const imp_region *times)
+{
+    const double at[3] = {times->lo[2], 0.63 * times->lo[2] + 0.37 * times->hi[2], times->hi[2]};
+    bool seems = false;
+    for (size_t maps = s->map_count; maps > 0 && !seems; --maps) {
+        double x[3][LINE_NUMBERS], size = 0, most[LINE_POINTS] = {0, 0, 0};
+        bool is_known = true;
+        for (int k = 0; k < 3; ++k) is_known = is_known && line_at(s, maps, line, at[k], x[k]);
+        for (int i = 0; i < LINE_NUMBERS && is_known; ++i) {
+            const double moved = fabs(x[1][i] - x[0][i]) + fabs(x[2][i] - x[0][i]);
+            size += fabs(x[0][i]);
+            if (!(moved <= most[i / 3])) most[i / 3] = moved;
+        }
+        const double still = SURELY_MOVED * size;
+        seems = !is_known || (most[0] <= still && most[1] <= still && most[2] > still);
+    }
+    return seems;
 }
 
 /* Counts the maps up to the last of the first `maps` that depends on time, if one of them turns. */
@@ -79,8 +119,10 @@ imp_status surface_held_maps(const surface *s, const imp_model bare[3], const im
     const imp_region then = slip_at_times(times, moment, moment);
     size_t maps = 0, moving = 0;
     double slip = 0;
+    imp_symmetry line;
     *held = (held_maps){0, 0};
-    if (!carried_exactly(s) || !is_round(s)) return IMP_STATUS_OK;
+    if (!carried_exactly(s) || !is_round(s, &line) || !seems_held(s, &line, times))
+        return IMP_STATUS_OK;
     imp_status status = count_moving(s, times, surface_map_count(s), &moving);
     if (status == IMP_STATUS_OK && moving > 0)
         status = slip_first_maps(s, true, bare, times, &then, &maps, &slip);
