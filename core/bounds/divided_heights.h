@@ -32,15 +32,17 @@ typedef struct divided_heights {
     double top; /* the least height of a corner so far */
 } divided_heights;
 
-/* Rounding of coefficients in units of u (V + B V^2), V the most of z and x, B = |bend_0| +
- * |bend_1| = 2 (|by_0| + |by_1|). A coefficient of a square is a mean of products:
+/* Rounding of coefficients in units of u (V + B V^2), V the most of z and x, B >= 2 (|by_0| +
+ * |by_1|) what by_i are rounded of (net_divider.c). A coefficient of a square is a mean of
+ * products:
  *
+ *   by_i                                                        4
  *   binomials and `by` times a number, both factors             2 + 3
  *   sixteen products and their sums, of both squares and z      1 + 18
  *   over binomials, as a product with a rounded quotient        2
  *   DIVIDED_DEPTH halvings of six steps, of which each rounds a sum and halves it */
 enum { DIVIDED_ROUNDING = 256 };
-_Static_assert(5 + 19 + 2 + 6 * DIVIDED_DEPTH <= DIVIDED_ROUNDING, "rounding of coefficients");
+_Static_assert(4 + 5 + 19 + 2 + 6 * DIVIDED_DEPTH <= DIVIDED_ROUNDING, "rounding of coefficients");
 
 /* --- Products of cubics ----------------------------------------------------------------------- */
 

@@ -12,8 +12,7 @@
 /* Sizes of what is divided, over both nets and both ends of the window. */
 typedef struct sizes {
     double most;         /* of all coordinates computed */
-    double across[2];    /* of those along `across` */
-    double change[2][2]; /* how far these move over the window, for each side */
+    double change[2][2]; /* how far those across move over the window, for each side */
 } sizes;
 
 IMP_QUAD_INLINE double greatest(imp_quad x)
@@ -35,7 +34,6 @@ IMP_QUAD_INLINE void sizes_take(sizes *s, const placed *p, bool is_flat)
     if (z > s->most) s->most = z;
     for (int i = 0; i < 2 && !is_flat; ++i) {
         const double x = greatest_of(p->x[i]);
-        if (x > s->across[i]) s->across[i] = x;
         if (x > s->most) s->most = x;
     }
 }
@@ -81,57 +79,79 @@ static bool serves(const net *f)
     return f != NULL && !f->is_weighted && f->degree[0] <= 3 && f->degree[1] <= 3;
 }
 
-/* What the sum of both sides' least heights has to exceed at the window's end, and beyond that at
- * its start. */
+/* The heights of a side are +-z - sum_i by_i x_i^2; the sum of both sides' least ones has to exceed
+ * `limit`. */
+typedef struct heights_rule {
+    double by[2][2]; /* of A, of B */
+    double limit;
+} heights_rule;
+
+/* Half of how a side's squares count in its heights, which are negative for A. */
+IMP_QUAD_INLINE double half_sign(int side) { return side == 0 ? -0.5 : 0.5; }
+
+/* Lemma (divider). Let f(x) be normal.X - sum_i bend_i (across_i.X)^2 / 2. grad f is a combination
+ * of normal and across_i with the coefficients 1 and -bend_i across_i.X, so that |grad f| is at
+ * most g(x) = R (1 + sum_i (bend_i across_i.X)^2 / 2), R the root of gram_upper or 1, if that is
+ * more, since the root of 1 + z is at most 1 + z / 2. grad f is linear, so its length between x and
+ * y is at most the greater of g(x) and g(y), which are at least 1: at most g(x) + g(y) - 1. Hence
+ * for points x and y within `near` of each other f(y) - f(x) <= near (g(x) + g(y) - 1), that is
+ *
+ *   h_B(y) + h_A(x) <= near (2 R - 1),   h = +-f - near R sum_i (bend_i across_i.X)^2 / 2.
+ *
+ * Surfaces are within their nets' errors of the patches: `near` is gamma_clear and both errors.
+ * Roundings of by_i are 4 u (|bend_i| + near R bend_i^2) / 2 at most (DIVIDED_ROUNDING). */
+IMP_QUAD_INLINE heights_rule rule_of(const net_divider *d, double near, double root)
+{
+    heights_rule r = {.limit = near * (2 * root - 1)};
+    for (int side = 0; side < 2; ++side)
+        for (int i = 0; i < 2; ++i)
+            r.by[side][i] =
+                half_sign(side) * d->bend[i] + 0.5 * (near * root) * (d->bend[i] * d->bend[i]);
+    return r;
+}
+
+/* What the sum has to exceed at the window's end, and beyond that at its start. */
 typedef struct limits {
     double end, more_at_start;
 } limits;
 
-/* Lemma (divider). Let f(x) be normal.X - sum_i bend_i (across_i.X)^2 / 2. For a point x of A and y
- * of B at a time t, f(y) - f(x) <= G |y - x|, G a bound of |grad f| on the segment from x to y.
- * grad f is a combination of normal and across_i with the coefficients 1 and -bend_i across_i.X,
- * so G is the root of gram_upper (1 + sum_i (bend_i m_i)^2) where |across_i.X| <= m_i on both
- * surfaces: of control points at the window's ends, between which they move linearly, and what
- * surfaces are off their nets. A surface is within its error of its net's patch, so that f is off
- * by G times that.
- *
- * Let h be f on the patch of B, or -f on that of A, for fixed (u, v): of second order in t, h =
- * (1 - r) h_0 + r h_1 - c r (1 - r) / 2 at the part r of the window. c is its second derivative by
- * r, at most the sum of the -+bend_i change_i^2 that are above 0. Let a and b be by how much
- * the least of both sides' h exceed the limit, together, at start and end, and C the sum of both
- * sides' c. With a, b > 0 and a + b >= C / 2 the limit is exceeded at all r, by at least
+/* Lemma (window). For fixed (u, v) h is of second order in time: it is (1 - r) h_0 + r h_1 -
+ * c r (1 - r) / 2 at the part r of the window. c is its second derivative by r, at most the sum of
+ * the -2 by_i change_i^2 that are above 0. Let a and b be by how much the least of both sides' h
+ * exceed the limit, together, at start and end, and C the sum of both sides' c. With a, b > 0 and
+ * a + b >= C / 2 the limit is exceeded at all r, by at least
  *
  *   (1 - r) a + r b - C r (1 - r) / 2 >= (1 - r)^2 a + r^2 b + r (1 - r) (a + b - C / 2) > 0.
  *
  * At one time h is a polynomial of order (6, 6), whose least value is no less than the least of its
  * Bernstein coefficients, or of those of its parts. Rounding of these, for each side, with E =
- * PLACE_ROUNDING u S, V = most, B = |bend_0| + |bend_1|; DIVIDED_ROUNDING (divided_heights.h) is
- * that of coefficients, of V + B V^2:
+ * PLACE_ROUNDING u S, V = most, B = sum_i (|bend_i| + near R bend_i^2) >= 2 sum_i |by_i|;
+ * DIVIDED_ROUNDING (divided_heights.h) is that of coefficients, of V + B V^2:
  *
- *   places          E along the normal, bend_i (2 V E + E^2) / 2 of each square
+ *   places          E along the normal, |by_i| (2 V E + E^2) of each square
  *   coefficients    DIVIDED_ROUNDING u (V + B V^2) */
-IMP_QUAD_INLINE limits limits_upper(const net *a, const net *b, const net_divider *d,
-                                    const sizes *s, double size, double gamma_clear)
+IMP_QUAD_INLINE limits limits_upper(const net_divider *d, const heights_rule *rule, const sizes *s,
+                                    double size, double near_by_root)
 {
-    const double bends = fabs(d->bend[0]) + fabs(d->bend[1]);
     const double off = PLACE_ROUNDING * UNIT_ROUNDOFF * size;
-    const double error = net_off(a) + net_off(b), room = off + 1.25 * error;
+    double bends = 0, curved = 0;
+    for (int i = 0; i < 2; ++i) {
+        bends += fabs(d->bend[i]) + near_by_root * d->bend[i] * d->bend[i];
+        for (int side = 0; side < 2; ++side) {
+            const double change = s->change[side][i] + 2 * off, by = rule->by[side][i];
+            if (by < 0) curved -= by * change * change;
+        }
+    }
+    bends = padded_upper(bends, 16);
     const double slack = off * (1 + bends * (s->most + off)) +
                          DIVIDED_ROUNDING * UNIT_ROUNDOFF * (s->most + bends * s->most * s->most);
-    double square = 1, curved = 0;
-    for (int i = 0; i < 2; ++i) {
-        const double slope = d->bend[i] * (s->across[i] + room);
-        const double change = s->change[d->bend[i] > 0 ? 0 : 1][i] + 2 * off;
-        square += slope * slope;
-        curved += fabs(d->bend[i]) * change * change;
-    }
-    const double steepest = padded_upper(sqrt(gram_upper(d) * square), 32);
-    const double limit = steepest * (gamma_clear + error) + 2 * slack;
-    return (limits){padded_upper(limit, 64) + 0x1p-490, padded_upper(0.5 * curved, 32)};
+    return (limits){padded_upper(rule->limit + 2 * slack, 32) + 0x1p-490,
+                    padded_upper(curved, 32) + slack};
 }
 
-PAD_COVERS(32, 12); /* slopes 3, squares 1, sums 2, root and its product; changes likewise */
-PAD_COVERS(64, 40); /* sums of sizes, none of which is rounded more than 40 times */
+PAD_COVERS(16, 6); /* bends: products 3, sums 3 */
+PAD_COVERS(32,
+           15); /* the slack 8, the rule's limit 3, their sum; `curved`: changes, products, sums */
 
 /* --- The proof -------------------------------------------------------------------------------- */
 
@@ -140,28 +160,23 @@ typedef struct placed_nets {
     placed of[2];
 } placed_nets;
 
-/* Half of how a side's squares count in its heights, which are negative for A. */
-IMP_QUAD_INLINE double half_sign(int side) { return side == 0 ? -0.5 : 0.5; }
-
 /* Whether the corners of the patches, which are on them, permit that the limit is exceeded. */
-IMP_QUAD_INLINE bool corners_exceed(const placed_nets *p, const net_divider *d, bool is_flat,
+IMP_QUAD_INLINE bool corners_exceed(const placed_nets *p, const heights_rule *rule, bool is_flat,
                                     double limit)
 {
     double sum = 0;
-    for (int side = 0; side < 2; ++side) {
-        const double half = half_sign(side), by[2] = {half * d->bend[0], half * d->bend[1]};
-        sum += divided_top(p->of[side].z, p->of[side].x, 2 * half, by, is_flat);
-    }
+    for (int side = 0; side < 2; ++side)
+        sum +=
+            divided_top(p->of[side].z, p->of[side].x, 2 * half_sign(side), rule->by[side], is_flat);
     return sum > limit;
 }
 
-IMP_QUAD_INLINE bool all_exceed(const placed_nets *p, const net_divider *d, bool is_flat,
+IMP_QUAD_INLINE bool all_exceed(const placed_nets *p, const heights_rule *rule, bool is_flat,
                                 double limit, divided_heights h[2])
 {
-    for (int side = 0; side < 2; ++side) {
-        const double half = half_sign(side), by[2] = {half * d->bend[0], half * d->bend[1]};
-        divided_begin(&h[side], p->of[side].z, p->of[side].x, 2 * half, by, is_flat);
-    }
+    for (int side = 0; side < 2; ++side)
+        divided_begin(&h[side], p->of[side].z, p->of[side].x, 2 * half_sign(side), rule->by[side],
+                      is_flat);
     return divided_exceed(h, limit, is_flat);
 }
 
@@ -175,11 +190,13 @@ IMP_QUAD_INLINE bool parts_by(const node *a, const node *b, const net_divider *d
                               double gamma_clear, const time_window *w, bool is_flat)
 {
     const net *const nets[2] = {node_net_made(a), node_net_made(b)};
+    const double near = padded_upper(gamma_clear + (net_off(nets[0]) + net_off(nets[1])), 8);
+    heights_rule rule = rule_of(d, near, 1);
     placed_nets early, late;
     divided_heights h[2];
     sizes s = {.most = 0};
     place_both(nets, d, w->hi, is_flat, 0, &late);
-    if (!corners_exceed(&late, d, is_flat, gamma_clear)) return false;
+    if (!corners_exceed(&late, &rule, is_flat, near)) return false;
     place_both(nets, d, w->hi, is_flat, 1, &late);
     for (int first = 0; first < 2; ++first) place_both(nets, d, w->lo, is_flat, first, &early);
     for (int side = 0; side < 2; ++side) {
@@ -188,14 +205,16 @@ IMP_QUAD_INLINE bool parts_by(const node *a, const node *b, const net_divider *d
     }
     for (int side = 0; side < 2 && !is_flat; ++side)
         sizes_take_change(&s, side, &early.of[side], &late.of[side]);
+    const double gram = gram_upper(d), root = gram > 1 ? padded_upper(sqrt(gram), 4) : 1;
     const double size = size_of(nets[0], d, w) + size_of(nets[1], d, w);
-    const limits over = limits_upper(nets[0], nets[1], d, &s, size, gamma_clear);
+    rule = rule_of(d, near, root);
+    const limits over = limits_upper(d, &rule, &s, size, near * root);
     const double at_start = over.end + over.more_at_start;
     if (!(size < DIVIDER_LARGE && at_start < INFINITY)) return false;
-    return corners_exceed(&late, d, is_flat, over.end) &&
-           corners_exceed(&early, d, is_flat, at_start) &&
-           all_exceed(&late, d, is_flat, over.end, h) &&
-           all_exceed(&early, d, is_flat, at_start, h);
+    return corners_exceed(&late, &rule, is_flat, over.end) &&
+           corners_exceed(&early, &rule, is_flat, at_start) &&
+           all_exceed(&late, &rule, is_flat, over.end, h) &&
+           all_exceed(&early, &rule, is_flat, at_start, h);
 }
 
 IMP_QUAD_INLINE bool parts(const node *a, const node *b, const net_divider *d, double gamma_clear,
