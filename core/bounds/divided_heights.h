@@ -38,11 +38,11 @@ typedef struct divided_heights {
  *
  *   by_i                                                        4
  *   binomials and `by` times a number, both factors             2 + 3
- *   sixteen products and their sums, of both squares and z      1 + 18
- *   over binomials, as a product with a rounded quotient        2
+ *   sixteen products and their sums, of both squares and z      1 + 22
+ *   over binomials: two quotients, their product, one product   4
  *   DIVIDED_DEPTH halvings of six steps, of which each rounds a sum and halves it */
 enum { DIVIDED_ROUNDING = 256 };
-_Static_assert(4 + 5 + 19 + 2 + 6 * DIVIDED_DEPTH <= DIVIDED_ROUNDING, "rounding of coefficients");
+_Static_assert(4 + 5 + 23 + 4 + 6 * DIVIDED_DEPTH <= DIVIDED_ROUNDING, "rounding of coefficients");
 
 /* --- Products of cubics ----------------------------------------------------------------------- */
 

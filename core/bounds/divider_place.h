@@ -5,6 +5,8 @@
 
 #include <string.h>
 
+#include <impinge/interval.h>
+
 #include "core/base/rounding.h"
 #include "core/bounds/net_divider.h"
 
@@ -88,8 +90,8 @@ IMP_QUAD_INLINE void place_rows(const net *f, const net_divider *d, double t, bo
  * and z together, at any time of the window. */
 static inline double size_of(const net *f, const net_divider *d, const time_window *w)
 {
-    const double late = fmax(fabs(w->lo - f->time), fabs(w->hi - f->time));
-    const double since = fmax(fabs(w->lo - d->time), fabs(w->hi - d->time));
+    const double late = imp_larger(fabs(w->lo - f->time), fabs(w->hi - f->time));
+    const double since = imp_larger(fabs(w->lo - d->time), fabs(w->hi - d->time));
     double sum = 0;
     for (int i = 0; i < 3; ++i)
         sum += f->most[i] + fabs(f->place[i]) + fabs(d->at.x[i]) + late * fabs(f->drift[i]) +

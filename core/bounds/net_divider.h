@@ -26,7 +26,8 @@ typedef struct net_divider {
 
 /* Whether both nodes are proved to be farther apart than gamma_clear during all of the window,
  * A on one side of the divider and B on the other. Only nets that were made (node_net_made) serve,
- * of at most third order and without weights. */
+ * of at most third order and without weights. Precondition: their numbers are finite, as net_take
+ * demands; those of the divider, of gamma_clear and of the window may be any, also NaN. */
 bool net_divider_parts(const node *a, const node *b, const net_divider *d, double gamma_clear,
                        const time_window *window);
 

@@ -7,6 +7,7 @@
 #include <assert.h>
 #include <stdlib.h>
 
+#include "core/bounds/strategy.h"
 #include "core/solver/contradiction.h"
 #include "core/solver/expand_pair.h"
 #include "core/solver/pair_note.h"
@@ -226,10 +227,10 @@ static bool is_divided(const impact *im, const pair *p, const time_window *until
 static bool part_by_divider(impact *im, pair *p)
 {
     const upper_time *up = &im->upper;
+    if (!up->is_known || !up->has_horizon || im->proof != NULL) return false;
     const time_window until = window_common(p->window, (time_window){p->window.lo, up->t});
-    if (!up->is_known || !up->has_horizon || im->proof != NULL || p->divided == up->count ||
-        !(until.lo < until.hi))
-        return false;
+    if (p->divided == up->count || !(until.lo < until.hi)) return false;
+    if (!strategy_has_both_hulls(p->a, p->b)) return false;
     p->divided = up->count;
     if (!is_divided(im, p, &until)) return false;
     if (!(p->window.hi > up->t)) return true;

@@ -41,7 +41,7 @@ static inline bool net_is_curved(const net *n)
     return n->degree[0] > 1 || n->degree[1] > 1 || n->is_weighted;
 }
 
-/* Estimates the surface's largest distance from the patch. */
+/* Bounds the surface's largest distance from the patch, up to 2 roundings. */
 static inline double net_off(const net *n) { return n->error[0] + n->error[1] + n->error[2]; }
 
 /* Fills n, which has memory for it, from a net over a region that keeps the ABI. False: its numbers
