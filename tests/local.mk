@@ -598,6 +598,7 @@ noinst_HEADERS += \
     tests/support/ball_queries.h \
     tests/support/box_stacks.h \
     tests/support/built_plugins.h \
+    tests/support/chain_helpers.h \
     tests/support/clearance_helpers.h \
     tests/support/comma_locale.h \
     tests/support/compose.h \
@@ -609,6 +610,7 @@ noinst_HEADERS += \
     tests/support/meeting.h \
     tests/support/meeting_nodes.h \
     tests/support/mesh_bytes.h \
+    tests/support/model_value.h \
     tests/support/net_distance.h \
     tests/support/oracle.h \
     tests/support/pose_descent.h \
@@ -619,16 +621,21 @@ noinst_HEADERS += \
     tests/support/scene_text.h \
     tests/support/scene_variants.h \
     tests/support/shape_points.h \
-    tests/support/chain_helpers.h tests/support/slip_helpers.h \
+    tests/support/slip_helpers.h \
     tests/support/solid_helpers.h \
     tests/support/sphere_scenes.h \
     tests/support/suite.h \
     tests/support/survey_helpers.h \
     tests/support/survey_scenes.h \
+    tests/support/temporary_file.h \
     tests/support/told_boxes.h
-noinst_HEADERS += tests/plugins/coil.h
-noinst_HEADERS += tests/plugins/mistakes.h tests/plugins/pipe.h tests/plugins/slab.h tests/plugins/slack_net.h tests/plugins/stack.h \
-    tests/support/model_value.h
+noinst_HEADERS += \
+    tests/plugins/coil.h \
+    tests/plugins/mistakes.h \
+    tests/plugins/pipe.h \
+    tests/plugins/slab.h \
+    tests/plugins/slack_net.h \
+    tests/plugins/stack.h
 
 # Fuzz targets, run on the inputs of their folders; tests/fuzz/run searches for more.
 # Plugins call its __cxa_finalize.
@@ -636,7 +643,7 @@ tests_fuzz_elf_LDFLAGS = $(AM_LDFLAGS) -export-dynamic
 tests_fuzz_elf_SOURCES = tests/fuzz/elf.c tests/fuzz/elf_changes.c tests/fuzz/elf_changes.h \
     tests/fuzz/replay.c tests/fuzz/fuzz.h
 tests_fuzz_api_SOURCES = tests/fuzz/api.c tests/fuzz/replay.c tests/fuzz/fuzz_registry.h
-tests_fuzz_array_SOURCES = tests/fuzz/array.c tests/fuzz/replay.c
+tests_fuzz_array_SOURCES = tests/fuzz/array.c tests/fuzz/replay.c tests/fuzz/fuzz_file.h
 tests_fuzz_array_LDADD = $(LDADD) $(JANSSON_LIBS)
 tests_fuzz_cache_SOURCES = tests/fuzz/cache.c tests/fuzz/replay.c tests/fuzz/fuzz_mutate.h
 tests_fuzz_certificate_SOURCES = tests/fuzz/certificate.c tests/fuzz/replay.c
@@ -644,7 +651,7 @@ tests_fuzz_certificate_CPPFLAGS = $(AM_CPPFLAGS) -DPROOF_DOUBLE
 tests_fuzz_certificate_LDADD = tools/libverify.la $(LDADD)
 tests_fuzz_kernel_SOURCES = tests/fuzz/kernel.c tests/fuzz/replay.c
 tests_fuzz_kernel_LDADD = tools/libverify.la $(LDADD)
-tests_fuzz_csv_SOURCES = tests/fuzz/csv.c tests/fuzz/replay.c
+tests_fuzz_csv_SOURCES = tests/fuzz/csv.c tests/fuzz/replay.c tests/fuzz/fuzz_file.h
 tests_fuzz_csv_LDADD = plugins/libcommon.la $(LDADD)
 tests_fuzz_json_SOURCES = tests/fuzz/json.c tests/fuzz/replay.c tests/support/same_json.h
 tests_fuzz_json_LDADD = $(LDADD) $(JANSSON_LIBS)

@@ -45,9 +45,9 @@ measured() {
     measured 'row("bicubic"; "gamma 0.001") | .verdicts.undecided == 0 and .reference.latest <= 3e-6'
 }
 
-@test "a scene of moving patches takes at most 100 pairs in the mean" {
+@test "moving bicubic patches take at most 45 pairs in the mean, biquadratic ones 50" {
     measured 'row("bicubic"; "gamma 1e-06").pairs.mean <= 45'
-    measured 'row("saddles"; "random") | .verdicts.undecided == 0 and .pairs.mean <= 100'
+    measured 'row("saddles"; "random") | .verdicts.undecided == 0 and .pairs.mean <= 50'
 }
 
 @test "saddles in one another are decided, and take at most 20000 pairs where 1e-4 apart" {

@@ -4,12 +4,11 @@
 
 #include "core/plugin/array_file.h"
 #include "core/plugin/parameters.h"
-#include "tests/fuzz/fuzz.h"
+#include "tests/fuzz/fuzz_file.h"
 
 #include <impinge/plugin.h>
 #include <math.h>
 #include <string.h>
-#include <unistd.h>
 
 /* Whatever bytes a file of an array holds, it is read or refused with a reason that names it. What
  * was read is allowed, has the parameter's shape, took no more memory than was asked for, and is
@@ -27,24 +26,6 @@ static const imp_parameter rows[] = {
     {.name = "counts", .kind = IMP_KIND_INTEGER, .rank = 2, .min = -1e15, .max = 1e15},
 };
 enum { ROWS = sizeof rows / sizeof *rows, FROM_ARCHIVE = 8 };
-
-static char path[] = "/tmp/impinge-fuzz-XXXXXX";
-
-static void remove_all(void) { unlink(path); }
-
-static void write_input(const unsigned char *bytes, size_t length)
-{
-    static bool prepared;
-    if (!prepared) {
-        const int fd = mkstemp(path);
-        FUZZ_REQUIRE(fd >= 0);
-        close(fd);
-        atexit(remove_all);
-        prepared = true;
-    }
-    FILE *out = fopen(path, "wb");
-    FUZZ_REQUIRE(out != NULL && fwrite(bytes, 1, length, out) == length && fclose(out) == 0);
-}
 
 static uint64_t asked; /* the most bytes that were */
 
@@ -94,9 +75,10 @@ int LLVMFuzzerTestOneInput(const unsigned char *bytes, size_t length)
     imp_value value = {0};
     imp_error error = {.code = IMP_SUCCESS};
     uint64_t taken = 7;
-    write_input(bytes + 1, length - 1);
+    fuzz_file_write(bytes + 1, length - 1);
     asked = 0;
-    const imp_code code = array_file_read(row, path, array, &limit, &at, &value, &taken, &error);
+    const imp_code code =
+        array_file_read(row, fuzz_file, array, &limit, &at, &value, &taken, &error);
     if (code == IMP_SUCCESS) {
         FUZZ_REQUIRE(taken == value.count * sizeof(double));
         judge(row, &value, &at);
@@ -106,6 +88,6 @@ int LLVMFuzzerTestOneInput(const unsigned char *bytes, size_t length)
     FUZZ_REQUIRE(value.number == NULL && taken == 0);
     FUZZ_REQUIRE(code == IMP_ERROR_LIMIT ? asked > MOST
                                          : code == IMP_ERROR_SCENE && error.code == code &&
-                                               strstr(error.text, path) != NULL);
+                                               strstr(error.text, fuzz_file) != NULL);
     return 0;
 }

@@ -3,12 +3,11 @@
 #include <config.h>
 
 #include "plugins/common/csv.h"
-#include "tests/fuzz/fuzz.h"
+#include "tests/fuzz/fuzz_file.h"
 #include "tests/fuzz/fuzz_mutate.h"
 
 #include <math.h>
 #include <string.h>
-#include <unistd.h>
 
 /* Whatever bytes a file of numbers holds, it is read or refused with a reason. What was read is
  * finite, and the same to the last bit when it is written out and read again. The input's first
@@ -19,27 +18,9 @@ const char fuzz_target[] = "csv";
 
 FUZZ_MUTATE_TEXT
 
-static char path[] = "/tmp/impinge-fuzz-XXXXXX";
-
-static void remove_all(void) { unlink(path); }
-
-static void write_input(const unsigned char *bytes, size_t length)
-{
-    static bool prepared;
-    if (!prepared) {
-        const int fd = mkstemp(path);
-        FUZZ_REQUIRE(fd >= 0);
-        close(fd);
-        atexit(remove_all);
-        prepared = true;
-    }
-    FILE *out = fopen(path, "wb");
-    FUZZ_REQUIRE(out != NULL && fwrite(bytes, 1, length, out) == length && fclose(out) == 0);
-}
-
 static void write_numbers(const csv_numbers *n)
 {
-    FILE *out = fopen(path, "wb");
+    FILE *out = fopen(fuzz_file, "wb");
     FUZZ_REQUIRE(out != NULL);
     for (size_t k = 0; k < n->rows * n->columns; ++k)
         fprintf(out, "%.17g%c", n->number[k], (k + 1) % n->columns == 0 ? '\n' : ',');
@@ -49,7 +30,7 @@ static void write_numbers(const csv_numbers *n)
 static bool read_numbers(const char *const *names, csv_numbers *to)
 {
     imp_create_error why = {.parameter = -7};
-    const imp_status status = csv_read(path, 3, names, 4, to, &why);
+    const imp_status status = csv_read(fuzz_file, 3, names, 4, to, &why);
     if (status == IMP_STATUS_OK) return true;
     FUZZ_REQUIRE(status == IMP_STATUS_PARAMETER && why.text[0] != '\0');
     FUZZ_REQUIRE(why.parameter == 3 || why.parameter == 4);
@@ -80,7 +61,7 @@ int LLVMFuzzerTestOneInput(const unsigned char *bytes, size_t length)
     static const char *const names[] = {"x", "2", "angle"};
     if (length == 0) return 0;
     csv_numbers first = {.columns = 1 + bytes[0] % CSV_COLUMNS_MAX}, second = first;
-    write_input(bytes + 1, length - 1);
+    fuzz_file_write(bytes + 1, length - 1);
     if (!read_numbers(bytes[0] & 4 ? names : NULL, &first)) return 0;
     for (size_t k = 0; k < first.rows * first.columns; ++k) FUZZ_REQUIRE(isfinite(first.number[k]));
     FUZZ_REQUIRE(memchr(bytes + 1, 0, length - 1) == NULL); /* what is behind it is not lost */

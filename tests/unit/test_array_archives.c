@@ -3,31 +3,11 @@
 #include <config.h>
 
 #include <stdio.h>
-#include <unistd.h>
 
-#include "tests/support/query_helpers.h"
+#include "tests/support/temporary_file.h"
 
 /* Arrays of numbers from archives, as numpy.savez and numpy.savez_compressed write them:
  * {"file": "nets.npz", "array": "points"}. */
-
-static imp_registry *registry;
-static imp_error error;
-static char path[] = "/tmp/impinge-archive-XXXXXX";
-
-static void begin(void)
-{
-    registry = query_registry();
-    const int file = mkstemp(path);
-    ck_assert_int_ge(file, 0);
-    close(file);
-}
-
-static void end(void)
-{
-    unlink(path);
-    memcpy(path + sizeof path - 7, "XXXXXX", 6);
-    imp_registry_free(registry);
-}
 
 /* --- Archives --------------------------------------------------------------------------------- */
 
@@ -361,5 +341,6 @@ int main(void)
                                   a_damaged_archive_is_refused_or_read_as_it_was,
                                   limits_on_reading_count_arrays_of_archives,
                                   a_certificate_has_the_hash_of_the_file_that_was_read};
-    return suite_main_with("array_archives", tests, sizeof tests / sizeof *tests, begin, end);
+    return suite_main_with("array_archives", tests, sizeof tests / sizeof *tests,
+                           temporary_file_begin, temporary_file_end);
 }

@@ -6,28 +6,9 @@
 #include <sys/stat.h>
 #include <unistd.h>
 
-#include "tests/support/query_helpers.h"
+#include "tests/support/temporary_file.h"
 
 /* Arrays of numbers from files of NumPy's format: {"file": "points.npy"}. */
-
-static imp_registry *registry;
-static imp_error error;
-static char path[] = "/tmp/impinge-array-XXXXXX";
-
-static void begin(void)
-{
-    registry = query_registry();
-    const int file = mkstemp(path);
-    ck_assert_int_ge(file, 0);
-    close(file);
-}
-
-static void end(void)
-{
-    unlink(path);
-    memcpy(path + sizeof path - 7, "XXXXXX", 6);
-    imp_registry_free(registry);
-}
 
 /* --- Writing ---------------------------------------------------------------------------------- */
 
@@ -229,5 +210,6 @@ int main(void)
                                   files_that_end_early_are_refused_wherever_they_end,
                                   numbers_that_a_text_could_not_state_are_refused_with_their_place,
                                   an_object_that_names_no_file_is_refused};
-    return suite_main_with("array_files", tests, sizeof tests / sizeof *tests, begin, end);
+    return suite_main_with("array_files", tests, sizeof tests / sizeof *tests, temporary_file_begin,
+                           temporary_file_end);
 }
