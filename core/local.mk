@@ -172,8 +172,8 @@ core_bounds = \
     core/bounds/gjk_axis.c core/bounds/gjk_axis.h \
     core/bounds/moving_boxes.c core/bounds/moving_boxes.h \
     core/bounds/net_axis.c core/bounds/net_axis.h \
-    core/bounds/divided_heights.h core/bounds/divider_place.h \
-    core/bounds/net_divider.c core/bounds/net_divider.h \
+    core/bounds/divided_heights.h core/bounds/paraboloid_frame.h \
+    core/bounds/net_paraboloid.c core/bounds/net_paraboloid.h \
     core/bounds/net_halves.c core/bounds/net_halves.h \
     core/bounds/net_hull.h \
     core/bounds/net_model_axis.c core/bounds/net_model_axis.h \
@@ -191,7 +191,7 @@ core_bounds = \
     core/bounds/window_lanes.h
 
 core_witness = \
-    core/witness/contact_divider.c core/witness/contact_divider.h \
+    core/witness/contact_paraboloid.c core/witness/contact_paraboloid.h \
     core/witness/contact_estimate.c core/witness/contact_estimate.h \
     core/witness/time_descent.c core/witness/time_descent.h \
     core/witness/net_eval.c core/witness/net_eval.h \

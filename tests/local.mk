@@ -146,7 +146,7 @@ mpfi_suites = \
     tests/unit/test_nested \
     tests/unit/test_net_models \
     tests/unit/test_nets \
-    tests/unit/test_net_divider \
+    tests/unit/test_net_paraboloid \
     tests/unit/test_net_halves \
     tests/unit/test_net_offers \
     tests/unit/test_net_series \
@@ -200,7 +200,7 @@ tests_unit_test_nested_SOURCES = tests/unit/test_nested.c $(type_oracle) \
     tests/support/sampling.c tests/support/sampling.h
 tests_unit_test_nets_SOURCES = tests/unit/test_nets.c tests/support/netted.h \
     tests/support/oracle_number.c tests/support/judge.c tests/support/judge.h
-tests_unit_test_net_divider_SOURCES = tests/unit/test_net_divider.c tests/support/netted.h \
+tests_unit_test_net_paraboloid_SOURCES = tests/unit/test_net_paraboloid.c tests/support/netted.h \
     tests/support/oracle_number.c tests/support/judge.c tests/support/judge.h
 tests_unit_test_net_halves_SOURCES = tests/unit/test_net_halves.c tests/support/netted.h \
     tests/support/oracle_number.c tests/support/judge.c tests/support/judge.h

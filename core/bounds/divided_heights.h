@@ -8,8 +8,8 @@
 
 /* The least heights of two patches, by halving Bernstein coefficients
  * ===================================================================
- * The height of a bicubic patch above a divider (net_divider.h) is a polynomial of order (6, 6), or
- * (3, 3) where the divider is flat. A part of the patch is no lower than its least coefficient; the
+ * The height of a bicubic patch above a paraboloid (net_paraboloid.h) is a polynomial of order
+ * (6, 6), or (3, 3) above a plane. A part of the patch is no lower than its least coefficient; the
  * coefficients at its corners are heights of points. The part that may be lowest is halved until
  * the sum of both patches' least heights is known to exceed a limit, or cannot. */
 
@@ -33,7 +33,7 @@ typedef struct divided_heights {
 } divided_heights;
 
 /* Rounding of coefficients in units of u (V + B V^2), V the most of z and x, B >= 2 (|by_0| +
- * |by_1|) what by_i are rounded of (net_divider.c). A coefficient of a square is a mean of
+ * |by_1|) what by_i are rounded of (net_paraboloid.c). A coefficient of a square is a mean of
  * products:
  *
  *   by_i                                                        4

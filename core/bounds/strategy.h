@@ -44,10 +44,9 @@
  *                           faces, or after one that does not cut   terms of third order and of
  *                           all, where terms of third order are     fourth, too
  *                           what hides the gap
- *   divider of nets         a contact is known; up to then only;    a plane, or a surface of
- *                           for nets of at most third order         second order, at a contact
- *                           without weights (net_divider.h)         parts much larger nodes than
- *                                                                   axes do
+ *   separating paraboloid   a contact is known; up to then only;    a plane or a paraboloid at a
+ *                           for nets of at most third order         contact separates much larger
+ *                           without weights (net_paraboloid.h)      nodes than axes do
  *   one-sided distance      no axis separates the pair from the     what slides along a surface has
  *                           start of its nodes' times; its parents  many neighbours there, and the
  *                           slid (while it pays); motion along a    distance separates it from all

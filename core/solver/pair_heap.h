@@ -21,7 +21,7 @@ typedef struct pair {
     node *a, *b;
     uint32_t candidate_pair; /* index in the query's list of candidate pairs */
     uint32_t wait;           /* generations until a witness is sought again */
-    uint32_t divided;        /* upper_time's count when its divider was tried; 0: never */
+    uint32_t divided;        /* upper_time's count when its paraboloid was tried; 0: never */
     bool is_seen_only;       /* only separation_first_look has tested it */
     bool lacks_nets;         /* nets of its nodes were not requested yet */
     bool slides;    /* a distance chose one node, of it or an ancestor, to be split alone */

@@ -209,22 +209,23 @@ static imp_code seek_upper_time(impact *im, pair *p, imp_error *error)
     return code;
 }
 
-/* Whether a divider parts the pair in this window, which ends at the known contact: the one there,
- * or the plane across the pair's own axis. */
-static bool is_divided(const impact *im, const pair *p, const time_window *until)
+/* Whether a paraboloid separates the pair in this window, which ends at the known contact: that of
+ * the contact, or the plane across the pair's own axis. */
+static bool is_separated(const impact *im, const pair *p, const time_window *until)
 {
     const upper_time *up = &im->upper;
-    const net_divider own = {.normal = vec3_scale(p->axis, 1 / vec3_norm(p->axis)), .time = up->t};
+    const net_paraboloid own = {.normal = vec3_scale(p->axis, 1 / vec3_norm(p->axis)),
+                                .time = up->t};
     if (up->candidate_pair == p->candidate_pair &&
-        net_divider_parts(p->a, p->b, &up->divider, im->gamma_clear, until))
+        net_paraboloid_parts(p->a, p->b, &up->paraboloid, im->gamma_clear, until))
         return true;
-    return net_divider_parts(p->a, p->b, &own, im->gamma_clear, until);
+    return net_paraboloid_parts(p->a, p->b, &own, im->gamma_clear, until);
 }
 
-/* Parts the pair up to the known contact by a divider (net_divider.h), if that succeeds: the rest
- * of the window goes back on the heap. Not where a proof is kept: its verifier knows no dividers.
- * Precondition: the heap has capacity. */
-static bool part_by_divider(impact *im, pair *p)
+/* Separates the pair up to the known contact by a paraboloid (net_paraboloid.h), if that succeeds:
+ * the rest of the window goes back on the heap. Not where a proof is kept: its verifier knows no
+ * paraboloids. Precondition: the heap has capacity. */
+static bool part_by_paraboloid(impact *im, pair *p)
 {
     const upper_time *up = &im->upper;
     if (!up->is_known || !up->has_horizon || im->proof != NULL) return false;
@@ -232,7 +233,7 @@ static bool part_by_divider(impact *im, pair *p)
     if (p->divided == up->count || !(until.lo < until.hi)) return false;
     if (!strategy_has_both_hulls(p->a, p->b)) return false;
     p->divided = up->count;
-    if (!is_divided(im, p, &until)) return false;
+    if (!is_separated(im, p, &until)) return false;
     if (!(p->window.hi > up->t)) return true;
     p->window.lo = p->key[0] = up->t;
     p->key[1] = pair_order(p, up->t);
@@ -281,7 +282,7 @@ imp_code impact_advance(impact *im, impact_state *state, imp_error *error)
     postpone(im, &p);
     if (!complete_test(im, &p)) return IMP_SUCCESS;
     code = seek_upper_time(im, &p, error);
-    if (code == IMP_SUCCESS && part_by_divider(im, &p)) return IMP_SUCCESS;
+    if (code == IMP_SUCCESS && part_by_paraboloid(im, &p)) return IMP_SUCCESS;
     pair expanded = p; /* p itself is pushed again if the search ends here */
     if (code == IMP_SUCCESS) code = expand_pair(im, &expanded, state, error);
     if (code != IMP_SUCCESS || *state != IMPACT_RUNNING) pair_heap_push(&im->heap, &p);

@@ -46,7 +46,7 @@ static void take(upper_time *up, const pair *p, const contact_estimate *met, con
     up->t = met->t;
     up->seen = *seen;
     up->candidate_pair = p->candidate_pair;
-    up->divider = met->divider;
+    up->paraboloid = met->paraboloid;
     up->count += 1;
     up->horizon = met->t + (rest > 0 && rest < INFINITY ? rest : 0);
 }

@@ -3,7 +3,7 @@
 #ifndef CORE_SOLVER_UPPER_TIME_H
 #define CORE_SOLVER_UPPER_TIME_H
 
-#include "core/bounds/net_divider.h"
+#include "core/bounds/net_paraboloid.h"
 #include "core/solver/pair_heap.h"
 #include "core/witness/witness.h"
 
@@ -18,12 +18,12 @@ typedef struct upper_time {
     bool is_known; /* `seen` is a contact at t; if false, only the counters are valid */
     double t;
     witness seen;
-    uint32_t candidate_pair; /* of the witness */
-    bool has_horizon;        /* the contact was found by following nets; then only: */
-    double horizon;          /* t or a little later: windows of expanded pairs end there */
-    net_divider divider;     /* of the surfaces at the contact */
-    uint32_t count;          /* of such contacts so far, each earlier than the one before */
-    uint64_t followed, next; /* pairs expanded; the count at which the next search is made */
+    uint32_t candidate_pair;   /* of the witness */
+    bool has_horizon;          /* the contact was found by following nets; then only: */
+    double horizon;            /* t or a little later: windows of expanded pairs end there */
+    net_paraboloid paraboloid; /* between the surfaces at the contact */
+    uint32_t count;            /* of such contacts so far, each earlier than the one before */
+    uint64_t followed, next;   /* pairs expanded; the count at which the next search is made */
 } upper_time;
 
 /* Counts an expanded pair and, at intervals, seeks a contact earlier than t starting from it;

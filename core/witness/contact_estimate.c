@@ -8,7 +8,7 @@
 #include <string.h>
 
 #include "core/bounds/tuning.h"
-#include "core/witness/contact_divider.h"
+#include "core/witness/contact_paraboloid.h"
 #include "core/witness/net_eval.h"
 #include "core/witness/newton.h"
 
@@ -192,10 +192,11 @@ static void begin(marcher *m, const node *const nodes[2], const net *const nets[
     stand_at(m, y, s);
 }
 
-/* The divider of the surfaces where they stand. It moves at the mean of both points' velocities. */
-static net_divider divider_at(const marcher *m, const net *const nets[2], const stand *s)
+/* The separating paraboloid where the surfaces stand, which moves at the mean of both points'
+ * velocities. */
+static net_paraboloid paraboloid_at(const marcher *m, const net *const nets[2], const stand *s)
 {
-    net_divider d = {.time = m->t};
+    net_paraboloid d = {.time = m->t};
     contact_side sides[2];
     for (int side = 0; side < 2; ++side) {
         sides[side].of = &s->side[side];
@@ -204,7 +205,7 @@ static net_divider divider_at(const marcher *m, const net *const nets[2], const 
             sides[side].is_free[j] = m->bounds.lo[k] < s->y[k] && s->y[k] < m->bounds.hi[k];
         }
     }
-    contact_divider_choose(sides, s->apart, &d);
+    contact_paraboloid_choose(sides, s->apart, &d);
     const vec3 at = vec3_add(jet_part(&s->side[0], NET_VALUE), vec3_scale(s->apart, 0.5));
     const vec3 place = vec3_add(vec3_from(nets[0]->place),
                                 vec3_scale(vec3_from(nets[0]->drift), m->t - nets[0]->time));
@@ -229,8 +230,8 @@ bool contact_estimate_find(const node *a, const node *b, vec3 axis, const time_w
         const vec3 velocity = velocity_of(nets, &s);
         const double speed = -vec3_dot(velocity, s.apart) / s.gap;
         if (s.gap < ENOUGH * gap) {
-            *found =
-                (contact_estimate){.t = m.t, .speed = speed, .divider = divider_at(&m, nets, &s)};
+            *found = (contact_estimate){
+                .t = m.t, .speed = speed, .paraboloid = paraboloid_at(&m, nets, &s)};
             memcpy(found->y, s.y, sizeof found->y);
             return true;
         }

@@ -4,7 +4,7 @@
 #define CORE_WITNESS_CONTACT_ESTIMATE_H
 
 #include "core/bounds/difference.h"
-#include "core/bounds/net_divider.h"
+#include "core/bounds/net_paraboloid.h"
 
 /* An estimate of when two nets first touch
  * ========================================
@@ -15,9 +15,9 @@
 
 typedef struct contact_estimate {
     double t;
-    double y[4];         /* (s_u, s_v) of a and of b, relative to the nodes; may lie outside */
-    double speed;        /* at which the gap closes; length/time */
-    net_divider divider; /* of the surfaces there */
+    double y[4];  /* (s_u, s_v) of a and of b, relative to the nodes; may lie outside */
+    double speed; /* at which the gap closes; length/time */
+    net_paraboloid paraboloid; /* between the surfaces there */
 } contact_estimate;
 
 /* Estimates the first time in the window at which the gap is `gap`. False: none was found. Both

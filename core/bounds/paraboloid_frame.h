@@ -1,16 +1,16 @@
 /* SPDX-FileCopyrightText: The Impinge authors
  * SPDX-License-Identifier: Apache-2.0 */
-#ifndef CORE_BOUNDS_DIVIDER_PLACE_H
-#define CORE_BOUNDS_DIVIDER_PLACE_H
+#ifndef CORE_BOUNDS_PARABOLOID_FRAME_H
+#define CORE_BOUNDS_PARABOLOID_FRAME_H
 
 #include <string.h>
 
 #include <impinge/interval.h>
 
 #include "core/base/rounding.h"
-#include "core/bounds/net_divider.h"
+#include "core/bounds/net_paraboloid.h"
 
-/* A net in the coordinates of a divider (net_divider.h) */
+/* A net in the coordinates of a paraboloid (net_paraboloid.h) */
 
 /* Control points of a bicubic patch at one time: row by row, along the normal and across. */
 typedef struct placed {
@@ -62,7 +62,7 @@ enum { PLACE_ROUNDING = 64 };
 _Static_assert((7 + 2 + 6 * 4 + 1 + 5) * 9 < 8 * PLACE_ROUNDING, "rounding of a place");
 
 /* Fills two rows: the first and the last (0), which hold the patch's corners, or those between. */
-IMP_QUAD_INLINE void place_rows(const net *f, const net_divider *d, double t, bool is_flat,
+IMP_QUAD_INLINE void place_rows(const net *f, const net_paraboloid *d, double t, bool is_flat,
                                 int first, placed *to)
 {
     const double tau = t - f->time, since = t - d->time;
@@ -88,7 +88,7 @@ IMP_QUAD_INLINE void place_rows(const net *f, const net_divider *d, double t, bo
 
 /* Bounds the sum of the sizes of all numbers whose sum is a coordinate of a control point, of x, y
  * and z together, at any time of the window. */
-static inline double size_of(const net *f, const net_divider *d, const time_window *w)
+static inline double size_of(const net *f, const net_paraboloid *d, const time_window *w)
 {
     const double late = imp_larger(fabs(w->lo - f->time), fabs(w->hi - f->time));
     const double since = imp_larger(fabs(w->lo - d->time), fabs(w->hi - d->time));

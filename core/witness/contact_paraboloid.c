@@ -2,11 +2,11 @@
  * SPDX-License-Identifier: Apache-2.0 */
 #include <config.h>
 
-#include "core/witness/contact_divider.h"
+#include "core/witness/contact_paraboloid.h"
 
-/* The divider's curvature beyond that of a face, in parts of what the other side leaves, or of the
- * face's own where a corner touches it; and beyond that of an edge, in parts of both edges' own.
- * Half of the former costs `bench bicubic` 2 per cent of its pairs, twice as much 5. */
+/* The paraboloid's curvature beyond that of a face, in parts of what the other side leaves, or of
+ * the face's own where a corner touches it; and beyond that of an edge, in parts of both edges'
+ * own. Half of the former costs `bench bicubic` 2 per cent of its pairs, twice as much 5. */
 static const double BEYOND_FACE = 0.5, BEYOND_EDGE = 0.5;
 
 /* A symmetric form in the coordinates along two directions. */
@@ -93,7 +93,7 @@ static bool bends_away(const contact_side *s, int side, vec3 n, const vec3 e[2])
     return sign * q.xx > 0 && q.xx * q.yy > q.xy * q.xy;
 }
 
-/* --- The divider's curvature ------------------------------------------------------------------ */
+/* --- The paraboloid's curvature --------------------------------------------------------------- */
 
 /* A form's axes: along the first, turned by this angle, it is `first`, across that `second`. */
 typedef struct turned {
@@ -109,7 +109,7 @@ static turned axes_of(const form *q)
 
 static double size_of_form(const form *q) { return fabs(q->xx) + fabs(q->yy) + fabs(q->xy); }
 
-/* The most that a divider bends beyond the flatter face. */
+/* The most that a paraboloid bends beyond the flatter face. */
 static double room_beyond(const contact_side *s, const form *q)
 {
     return BEYOND_FACE * size_of_form(q) +
@@ -182,7 +182,7 @@ static form form_of(const contact_side sides[2], vec3 n, const vec3 e[2])
     return beside_edge(&sides[a == EDGE ? 0 : 1], a == EDGE ? 0 : 1, n, e);
 }
 
-void contact_divider_choose(const contact_side sides[2], vec3 apart, net_divider *d)
+void contact_paraboloid_choose(const contact_side sides[2], vec3 apart, net_paraboloid *d)
 {
     const vec3 n = normal_of(sides, apart);
     vec3 e[2];

@@ -2,10 +2,10 @@
  * SPDX-License-Identifier: Apache-2.0 */
 #include <config.h>
 
-#include "core/bounds/net_divider.h"
+#include "core/bounds/net_paraboloid.h"
 
 #include "core/bounds/divided_heights.h"
-#include "core/bounds/divider_place.h"
+#include "core/bounds/paraboloid_frame.h"
 
 /* --- What has to be exceeded ------------------------------------------------------------------ */
 
@@ -47,9 +47,9 @@ IMP_QUAD_INLINE void sizes_take_change(sizes *s, int side, const placed *early, 
     }
 }
 
-/* Bounds the greatest sum of a row of the Gram matrix of the divider's vectors: no linear
+/* Bounds the greatest sum of a row of the Gram matrix of the paraboloid's vectors: no linear
  * combination is longer than its root times the root of the sum of the squared coefficients. */
-static double gram_upper(const net_divider *d)
+static double gram_upper(const net_paraboloid *d)
 {
     const vec3 *v[3] = {&d->normal, &d->across[0], &d->across[1]};
     double most = 0;
@@ -61,17 +61,17 @@ static double gram_upper(const net_divider *d)
     return most + 0x1p-45; /* 3 + 2 roundings of 9 * 1.125^2 < 12 at most: < 2^-46 */
 }
 
-/* The greatest numbers of a divider. */
-#define DIVIDER_LARGE 0x1p200
+/* The greatest numbers of a paraboloid. */
+#define PARABOLOID_LARGE 0x1p200
 
-static bool is_usable(const net_divider *d)
+static bool is_usable(const net_paraboloid *d)
 {
-    bool fine = fabs(d->time) < DIVIDER_LARGE;
+    bool fine = fabs(d->time) < PARABOLOID_LARGE;
     for (int i = 0; i < 3; ++i)
         fine = fine && fabs(d->normal.x[i]) <= 1.125 && fabs(d->across[0].x[i]) <= 1.125 &&
-               fabs(d->across[1].x[i]) <= 1.125 && fabs(d->at.x[i]) < DIVIDER_LARGE &&
-               fabs(d->velocity.x[i]) < DIVIDER_LARGE;
-    return fine && fabs(d->bend[0]) < DIVIDER_LARGE && fabs(d->bend[1]) < DIVIDER_LARGE;
+               fabs(d->across[1].x[i]) <= 1.125 && fabs(d->at.x[i]) < PARABOLOID_LARGE &&
+               fabs(d->velocity.x[i]) < PARABOLOID_LARGE;
+    return fine && fabs(d->bend[0]) < PARABOLOID_LARGE && fabs(d->bend[1]) < PARABOLOID_LARGE;
 }
 
 static bool serves(const net *f)
@@ -89,18 +89,19 @@ typedef struct heights_rule {
 /* Half of how a side's squares count in its heights, which are negative for A. */
 IMP_QUAD_INLINE double half_sign(int side) { return side == 0 ? -0.5 : 0.5; }
 
-/* Lemma (divider). Let f(x) be normal.X - sum_i bend_i (across_i.X)^2 / 2. grad f is a combination
- * of normal and across_i with the coefficients 1 and -bend_i across_i.X, so that |grad f| is at
- * most g(x) = R (1 + sum_i (bend_i across_i.X)^2 / 2), R the root of gram_upper or 1, if that is
- * more, since the root of 1 + z is at most 1 + z / 2. grad f is linear, so its length between x and
- * y is at most the greater of g(x) and g(y), which are at least 1: at most g(x) + g(y) - 1. Hence
- * for points x and y within `near` of each other f(y) - f(x) <= near (g(x) + g(y) - 1), that is
+/* Lemma (paraboloid). Let f(x) be normal.X - sum_i bend_i (across_i.X)^2 / 2. grad f is a
+ * combination of normal and across_i with the coefficients 1 and -bend_i across_i.X, so that
+ * |grad f| is at most g(x) = R (1 + sum_i (bend_i across_i.X)^2 / 2), R the root of gram_upper or
+ * 1, if that is more, since the root of 1 + z is at most 1 + z / 2. grad f is linear, so its length
+ * between x and y is at most the greater of g(x) and g(y), which are at least 1: at most g(x) +
+ * g(y) - 1. Hence for points x and y within `near` of each other f(y) - f(x) <= near (g(x) + g(y) -
+ * 1), that is
  *
  *   h_B(y) + h_A(x) <= near (2 R - 1),   h = +-f - near R sum_i (bend_i across_i.X)^2 / 2.
  *
  * Surfaces are within their nets' errors of the patches: `near` is gamma_clear and both errors.
  * Roundings of by_i are 4 u (|bend_i| + near R bend_i^2) / 2 at most (DIVIDED_ROUNDING). */
-IMP_QUAD_INLINE heights_rule rule_of(const net_divider *d, double near, double root)
+IMP_QUAD_INLINE heights_rule rule_of(const net_paraboloid *d, double near, double root)
 {
     heights_rule r = {.limit = near * (2 * root - 1)};
     for (int side = 0; side < 2; ++side)
@@ -130,8 +131,8 @@ typedef struct limits {
  *
  *   places          E along the normal, |by_i| (2 V E + E^2) of each square
  *   coefficients    DIVIDED_ROUNDING u (V + B V^2) */
-IMP_QUAD_INLINE limits limits_upper(const net_divider *d, const heights_rule *rule, const sizes *s,
-                                    double size, double near_by_root)
+IMP_QUAD_INLINE limits limits_upper(const net_paraboloid *d, const heights_rule *rule,
+                                    const sizes *s, double size, double near_by_root)
 {
     const double off = PLACE_ROUNDING * UNIT_ROUNDOFF * size;
     double bends = 0, curved = 0;
@@ -180,13 +181,13 @@ IMP_QUAD_INLINE bool all_exceed(const placed_nets *p, const heights_rule *rule, 
     return divided_exceed(h, limit, is_flat);
 }
 
-IMP_QUAD_INLINE void place_both(const net *const nets[2], const net_divider *d, double t,
+IMP_QUAD_INLINE void place_both(const net *const nets[2], const net_paraboloid *d, double t,
                                 bool is_flat, int first, placed_nets *p)
 {
     for (int side = 0; side < 2; ++side) place_rows(nets[side], d, t, is_flat, first, &p->of[side]);
 }
 
-IMP_QUAD_INLINE bool parts_by(const node *a, const node *b, const net_divider *d,
+IMP_QUAD_INLINE bool parts_by(const node *a, const node *b, const net_paraboloid *d,
                               double gamma_clear, const time_window *w, bool is_flat)
 {
     const net *const nets[2] = {node_net_made(a), node_net_made(b)};
@@ -210,34 +211,34 @@ IMP_QUAD_INLINE bool parts_by(const node *a, const node *b, const net_divider *d
     rule = rule_of(d, near, root);
     const limits over = limits_upper(d, &rule, &s, size, near * root);
     const double at_start = over.end + over.more_at_start;
-    if (!(size < DIVIDER_LARGE && at_start < INFINITY)) return false;
+    if (!(size < PARABOLOID_LARGE && at_start < INFINITY)) return false;
     return corners_exceed(&late, &rule, is_flat, over.end) &&
            corners_exceed(&early, &rule, is_flat, at_start) &&
            all_exceed(&late, &rule, is_flat, over.end, h) &&
            all_exceed(&early, &rule, is_flat, at_start, h);
 }
 
-IMP_QUAD_INLINE bool parts(const node *a, const node *b, const net_divider *d, double gamma_clear,
-                           const time_window *w)
+IMP_QUAD_INLINE bool parts(const node *a, const node *b, const net_paraboloid *d,
+                           double gamma_clear, const time_window *w)
 {
     return d->bend[0] == 0 && d->bend[1] == 0 ? parts_by(a, b, d, gamma_clear, w, true)
                                               : parts_by(a, b, d, gamma_clear, w, false);
 }
 
-IMP_QUAD_NARROW static bool parts_narrow(const node *a, const node *b, const net_divider *d,
+IMP_QUAD_NARROW static bool parts_narrow(const node *a, const node *b, const net_paraboloid *d,
                                          double gamma_clear, const time_window *w)
 {
     return parts(a, b, d, gamma_clear, w);
 }
 
-IMP_QUAD_WIDE static bool parts_wide(const node *a, const node *b, const net_divider *d,
+IMP_QUAD_WIDE static bool parts_wide(const node *a, const node *b, const net_paraboloid *d,
                                      double gamma_clear, const time_window *w)
 {
     return parts(a, b, d, gamma_clear, w);
 }
 
-bool net_divider_parts(const node *a, const node *b, const net_divider *d, double gamma_clear,
-                       const time_window *window)
+bool net_paraboloid_parts(const node *a, const node *b, const net_paraboloid *d, double gamma_clear,
+                          const time_window *window)
 {
     if (!serves(node_net_made(a)) || !serves(node_net_made(b)) || !is_usable(d)) return false;
     return imp_quad_is_wide() ? parts_wide(a, b, d, gamma_clear, window)

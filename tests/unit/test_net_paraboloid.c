@@ -5,20 +5,20 @@
 #include "tests/support/net_distance.h"
 
 /* The copy for narrow registers stands beside the library's own. */
-bool narrow_divider_parts(const node *a, const node *b, const net_divider *d, double gamma_clear,
-                          const time_window *window);
+bool narrow_paraboloid_parts(const node *a, const node *b, const net_paraboloid *d,
+                             double gamma_clear, const time_window *window);
 #define imp_quad_is_wide() false
-#define net_divider_parts narrow_divider_parts
-#include "core/bounds/net_divider.c"
+#define net_paraboloid_parts narrow_paraboloid_parts
+#include "core/bounds/net_paraboloid.c"
 #undef imp_quad_is_wide
-#undef net_divider_parts
+#undef net_paraboloid_parts
 
-/* What dividers part, against points: sampled ones, moved to where they are nearest. */
+/* What paraboloids part, against points: sampled ones, moved to where they are nearest. */
 
 static double random_sign(uint64_t *state) { return random_bits(state) % 2 ? 1 : -1; }
 
 /* Three unit vectors at right angles; now and then, any three vectors that are not too long. */
-static void draw_vectors(uint64_t *state, net_divider *d)
+static void draw_vectors(uint64_t *state, net_paraboloid *d)
 {
     vec3 *const v[3] = {&d->normal, &d->across[0], &d->across[1]};
     for (int k = 0; k < 3; ++k)
@@ -30,7 +30,7 @@ static void draw_vectors(uint64_t *state, net_divider *d)
     *v[2] = vec3_cross(*v[0], *v[1]);
 }
 
-static void draw_divider(uint64_t *state, net_divider *d)
+static void draw_paraboloid(uint64_t *state, net_paraboloid *d)
 {
     draw_vectors(state, d);
     for (int i = 0; i < 2; ++i)
@@ -42,8 +42,8 @@ static void draw_divider(uint64_t *state, net_divider *d)
     d->time = random_between(state, -1, 2);
 }
 
-/* Moves a control point along the normal, so that it lies nearly on the divider. */
-static void press(const net_divider *d, double flat, imp_net *g, int k)
+/* Moves a control point along the normal, so that it lies nearly on the paraboloid. */
+static void press(const net_paraboloid *d, double flat, imp_net *g, int k)
 {
     const vec3 p = {{g->point[0][k], g->point[1][k], g->point[2][k]}};
     double by = (flat - 1) * vec3_dot(p, d->normal);
@@ -52,8 +52,8 @@ static void press(const net_divider *d, double flat, imp_net *g, int k)
     for (int i = 0; i < 3; ++i) g->point[i][k] += by * d->normal.x[i];
 }
 
-/* A net whose points lie near the divider, on the side of `sign`. */
-static void draw_beside(uint64_t *state, const net_divider *d, double sign, netted *made)
+/* A net whose points lie near the paraboloid, on the side of `sign`. */
+static void draw_beside(uint64_t *state, const net_paraboloid *d, double sign, netted *made)
 {
     const double far = random_power(state, -4, 1), flat = random_power(state, -6, 0);
     imp_net *g = &made->given;
@@ -129,14 +129,14 @@ static double least_distance(uint64_t *state, const netted *const both[2], const
 }
 
 /* Returns the greatest gamma_clear that is proved, to a tenth of a per cent; 0: none. */
-static double parted_by(const netted *a, const netted *b, const net_divider *d,
+static double parted_by(const netted *a, const netted *b, const net_paraboloid *d,
                         const time_window *w)
 {
     double lo = 0, hi = 8;
     for (int k = 0; k < 24; ++k) {
         const double mid = lo > 0 ? 0.5 * (lo + hi) : hi * 0.125;
-        const bool is_parted = net_divider_parts(&a->n, &b->n, d, mid, w);
-        ck_assert(narrow_divider_parts(&a->n, &b->n, d, mid, w) == is_parted);
+        const bool is_parted = net_paraboloid_parts(&a->n, &b->n, d, mid, w);
+        ck_assert(narrow_paraboloid_parts(&a->n, &b->n, d, mid, w) == is_parted);
         *(is_parted ? &lo : &hi) = mid;
         if (hi - lo < 1e-3 * hi) break;
     }
@@ -150,8 +150,8 @@ START_TEST(no_two_points_of_what_is_parted_are_near)
     for (int k = 0; k < suite_times(3000); ++k) {
         netted a, b;
         const netted *const both[2] = {&a, &b};
-        net_divider d;
-        draw_divider(&state, &d);
+        net_paraboloid d;
+        draw_paraboloid(&state, &d);
         draw_beside(&state, &d, -1, &a);
         draw_beside(&state, &d, 1, &b);
         const double start = random_fraction(&state);
@@ -169,11 +169,11 @@ START_TEST(no_two_points_of_what_is_parted_are_near)
 }
 END_TEST
 
-/* Two points on either side of a divider that bends towards them. */
+/* Two points on either side of a paraboloid that bends towards them. */
 static bool points_are_parted(double bend, double off, double gamma_clear, double error)
 {
     netted a = {.given = {.degree = {0, 0}}}, b = {.given = {.degree = {0, 0}}};
-    const net_divider d = {
+    const net_paraboloid d = {
         .normal = {{0, 0, 1}}, .across = {{{1, 0, 0}}, {{0, 1, 0}}}, .bend = {bend, 0}};
     const time_window w = {0, 1};
     a.given.place[0] = b.given.place[0] = off;
@@ -181,10 +181,10 @@ static bool points_are_parted(double bend, double off, double gamma_clear, doubl
     b.given.error[2] = error;
     take(&a, zero, one);
     take(&b, zero, one);
-    return net_divider_parts(&a.n, &b.n, &d, gamma_clear, &w);
+    return net_paraboloid_parts(&a.n, &b.n, &d, gamma_clear, &w);
 }
 
-START_TEST(the_slope_of_a_divider_counts_and_the_errors_of_nets)
+START_TEST(the_slope_of_a_paraboloid_counts_and_the_errors_of_nets)
 {
     ck_assert(points_are_parted(0, 0, 0.9999999, 0));
     ck_assert(!points_are_parted(0, 0, 1, 0)); /* rounding counts */
@@ -198,26 +198,26 @@ START_TEST(the_slope_of_a_divider_counts_and_the_errors_of_nets)
 }
 END_TEST
 
-/* Whether a point at the height z is parted from one at 1 that moves with the divider, while it
+/* Whether a point at the height z is parted from one at 1 that moves with the paraboloid, while it
  * moves along the curvature. */
 static bool is_passed(double bend, double speed, double z)
 {
     netted a = {.given = {.degree = {0, 0}}}, b = {.given = {.degree = {0, 0}}};
-    const net_divider d = {.normal = {{0, 0, 1}},
-                           .across = {{{1, 0, 0}}, {{0, 1, 0}}},
-                           .bend = {bend, 0},
-                           .time = 0.5};
+    const net_paraboloid d = {.normal = {{0, 0, 1}},
+                              .across = {{{1, 0, 0}}, {{0, 1, 0}}},
+                              .bend = {bend, 0},
+                              .time = 0.5};
     const time_window w = {0, 1};
     a.given.drift[0] = speed;
     a.given.place[2] = z;
     b.given.place[2] = 1;
     take(&a, zero, one);
     take(&b, zero, one);
-    return net_divider_parts(&a.n, &b.n, &d, 0x1p-10, &w);
+    return net_paraboloid_parts(&a.n, &b.n, &d, 0x1p-10, &w);
 }
 
-/* Below a divider that bends up, the point is farthest from it at the ends of the window. */
-START_TEST(a_divider_is_crossed_between_the_ends_of_a_window)
+/* Below a paraboloid that bends up, the point is farthest from it at the ends of the window. */
+START_TEST(a_paraboloid_is_crossed_between_the_ends_of_a_window)
 {
     ck_assert(is_passed(0, 100, 0));
     ck_assert(is_passed(1, 1.6, 0));
@@ -231,16 +231,16 @@ END_TEST
 START_TEST(numbers_that_mean_nothing_part_nothing)
 {
     netted a = {.given = {.degree = {0, 0}}}, b = {.given = {.degree = {0, 0}}};
-    const net_divider good = {.normal = {{0, 0, 1}}, .across = {{{1, 0, 0}}, {{0, 1, 0}}}};
+    const net_paraboloid good = {.normal = {{0, 0, 1}}, .across = {{{1, 0, 0}}, {{0, 1, 0}}}};
     const time_window w = {0, 1};
     b.given.place[2] = 1;
     take(&a, zero, one);
     take(&b, zero, one);
-    ck_assert(net_divider_parts(&a.n, &b.n, &good, 0.5, &w));
-    ck_assert(!net_divider_parts(&a.n, &b.n, &good, NAN, &w));
+    ck_assert(net_paraboloid_parts(&a.n, &b.n, &good, 0.5, &w));
+    ck_assert(!net_paraboloid_parts(&a.n, &b.n, &good, NAN, &w));
     const double bad[] = {NAN, INFINITY, -INFINITY, 0x1p300};
     for (int k = 0; k < 4; ++k) {
-        net_divider d[7];
+        net_paraboloid d[7];
         for (int i = 0; i < 7; ++i) d[i] = good;
         d[0].normal.x[0] = bad[k];
         d[1].across[0].x[1] = bad[k];
@@ -249,14 +249,14 @@ START_TEST(numbers_that_mean_nothing_part_nothing)
         d[4].at.x[0] = bad[k];
         d[5].velocity.x[2] = bad[k];
         d[6].time = bad[k];
-        for (int i = 0; i < 7; ++i) ck_assert(!net_divider_parts(&a.n, &b.n, &d[i], 0.5, &w));
+        for (int i = 0; i < 7; ++i) ck_assert(!net_paraboloid_parts(&a.n, &b.n, &d[i], 0.5, &w));
     }
     a.n.net = NULL;
-    ck_assert(!net_divider_parts(&a.n, &b.n, &good, 0.5, &w));
+    ck_assert(!net_paraboloid_parts(&a.n, &b.n, &good, 0.5, &w));
 }
 END_TEST
 
-SUITE_MAIN("net_divider", no_two_points_of_what_is_parted_are_near,
-           the_slope_of_a_divider_counts_and_the_errors_of_nets,
-           a_divider_is_crossed_between_the_ends_of_a_window,
+SUITE_MAIN("net_paraboloid", no_two_points_of_what_is_parted_are_near,
+           the_slope_of_a_paraboloid_counts_and_the_errors_of_nets,
+           a_paraboloid_is_crossed_between_the_ends_of_a_window,
            numbers_that_mean_nothing_part_nothing)
