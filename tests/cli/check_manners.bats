@@ -98,7 +98,7 @@ leaves() {
 @test "an instance that is refilled like no new one is exposed" {
     exposes renewal liar_renew "eval's points differ between an instance refilled by renew and a new one"
     "$IMPINGE" check sphere --only renewal | grep -q "pass  renewal  *an instance that renew refills"
-    "$IMPINGE" check mesh --only renewal | grep -q "skip  renewal  *it has no renew"
+    "$IMPINGE" check formula --only renewal | grep -q "skip  renewal  *it has no renew"
 }
 
 @test "a renew that breaks another rule is exposed" {
