@@ -19,6 +19,7 @@ plugin_LTLIBRARIES = \
     plugins/keyframes.la \
     plugins/map-formula.la \
     plugins/mesh.la \
+    plugins/motion-formula.la \
     plugins/nurbs.la \
     plugins/plane.la \
     plugins/point.la \
@@ -84,6 +85,8 @@ plugins_map_formula_la_SOURCES = plugins/maps/map-formula.c
 plugins_map_formula_la_LDFLAGS = $(plugin_ldflags)
 plugins_mesh_la_SOURCES = plugins/surfaces/mesh.c
 plugins_mesh_la_LDFLAGS = $(plugin_ldflags)
+plugins_motion_formula_la_SOURCES = plugins/maps/motion-formula.c
+plugins_motion_formula_la_LDFLAGS = $(plugin_ldflags)
 plugins_nurbs_la_SOURCES = plugins/surfaces/nurbs.c
 plugins_nurbs_la_LDFLAGS = $(plugin_ldflags)
 plugins_plane_la_SOURCES = plugins/surfaces/plane.c
@@ -276,7 +279,7 @@ plugins_libsubdivision_la_SOURCES = \
 plugins_libsubdivision_la_LDFLAGS =
 plugins_subdivision_la_LIBADD = plugins/libsubdivision.la plugins/libpatch.la plugins/libmesh.la
 
-# The language of formulas, for both types that take formulas as text.
+# The language of formulas, for the types that take formulas as text.
 noinst_LTLIBRARIES += plugins/libexpression.la
 plugins_libexpression_la_SOURCES = \
     plugins/expression/builder.c plugins/expression/builder.h \
@@ -284,6 +287,7 @@ plugins_libexpression_la_SOURCES = \
     plugins/expression/coil_surface.c plugins/expression/coil_surface.h \
     plugins/expression/expression.c plugins/expression/expression.h \
     plugins/expression/functions.h \
+    plugins/expression/motion_text.c plugins/expression/motion_text.h \
     plugins/expression/names.c plugins/expression/names.h \
     plugins/expression/operation.c plugins/expression/operation.h \
     plugins/expression/parser.c plugins/expression/parser.h \
@@ -294,6 +298,7 @@ noinst_HEADERS += plugins/expression/type.h
 plugins_libexpression_la_LDFLAGS =
 plugins_formula_la_LIBADD = plugins/libexpression.la
 plugins_map_formula_la_LIBADD = plugins/libexpression.la
+plugins_motion_formula_la_LIBADD = plugins/libexpression.la plugins/libcommon.la
 
 # They link with libm, and those that read JSON with jansson (plugins/libmesh.la), whatever configure
 # found for the host.

@@ -10,9 +10,8 @@ static const imp_parameter parameters[] = {
     [TEXT_X] = ROW_TEXT("x", "\"x\"", "new x as a formula in x, y, z, t"),
     [TEXT_Y] = ROW_TEXT("y", "\"y\"", "new y as a formula in x, y, z, t"),
     [TEXT_Z] = ROW_TEXT("z", "\"z\"", "new z as a formula in x, y, z, t"),
-    [CONSTANTS] = ROW_CONSTANTS,
-    [TIME] = ROW_TIME(
-        "[t0,t1]: times at which it is defined; other times cannot be queried; default: all times"),
+    [CONSTANTS] = ROW_CONSTANTS("x, y and z"),
+    [TIME] = ROW_MAP_TIME,
 };
 
 typedef struct map_instance {
@@ -34,7 +33,7 @@ static imp_status compile(const imp_value *values, map_instance *s, imp_create_e
 
 static imp_status keep(const imp_value *values, map_instance *s)
 {
-    s->text = keep_texts(values, &s->lo, &s->hi, false);
+    s->text = keep_texts(write_map_texts, values, &s->lo, &s->hi);
     if (s->text == NULL) expression_free(s->program);
     return s->text != NULL ? IMP_STATUS_OK : IMP_STATUS_INTERNAL;
 }
@@ -43,7 +42,7 @@ static imp_status map_create(const imp_value *values, void **self, imp_create_er
 {
     map_instance *s = malloc(sizeof *s);
     if (s == NULL) return IMP_STATUS_INTERNAL;
-    imp_status status = read_time(values, &s->lo, &s->hi, why);
+    imp_status status = read_time(values, TIME, &s->lo, &s->hi, why);
     if (status == IMP_STATUS_OK) status = compile(values, s, why);
     if (status == IMP_STATUS_OK) status = keep(values, s);
     if (status == IMP_STATUS_OK)
@@ -91,7 +90,7 @@ static imp_status map_write_formula(const void *self, const imp_text_sink *to)
 static const imp_map_type map_formula = {
     IMP_TYPE_FIELDS(imp_map_type, "map-formula", map, map_destroy),
     .write_formula = map_write_formula,
-    .summary = "any motion or deformation, given by formulas",
+    .summary = "any motion or deformation, given by formulas; motion-formula is better where rigid",
     .equation = "(x, y, z) becomes three texts in x, y, z, t, in the language of the surface type "
                 "formula; a text that is absent leaves its coordinate unchanged",
     .source = NULL,

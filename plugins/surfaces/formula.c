@@ -13,7 +13,7 @@ static const imp_parameter parameters[] = {
     [TEXT_X] = ROW_TEXT("x", "\"u\"", "x as a formula in u, v, t"),
     [TEXT_Y] = ROW_TEXT("y", "\"v\"", "y as a formula in u, v, t"),
     [TEXT_Z] = ROW_TEXT("z", "\"0\"", "z as a formula in u, v, t"),
-    [CONSTANTS] = ROW_CONSTANTS,
+    [CONSTANTS] = ROW_CONSTANTS("x, y and z"),
     [TIME] = ROW_TIME("[t0,t1]: times at which it exists; default: all times"),
     [DOMAIN] = IMP_ROW("domain", "1", "[[0,1],[0,1]]", 0, 2, 2, 2, -INFINITY, INFINITY,
                        "[[u0,u1],[v0,v1]]: ranges of u and v; x, y and z must be defined there"),
@@ -37,7 +37,7 @@ static imp_status read_domain(const imp_value *values, formula_instance *s, imp_
         if (!(s->lo[j] <= s->hi[j]))
             return imp_reject(why, DOMAIN, j, "[%g,%g] ends before it begins", s->lo[j], s->hi[j]);
     }
-    return read_time(values, &s->lo[2], &s->hi[2], why);
+    return read_time(values, TIME, &s->lo[2], &s->hi[2], why);
 }
 
 static imp_status compile(const imp_value *values, formula_instance *s, imp_create_error *why)
@@ -51,7 +51,7 @@ static imp_status compile(const imp_value *values, formula_instance *s, imp_crea
 
 static imp_status keep(const imp_value *values, formula_instance *s)
 {
-    s->text = keep_texts(values, s->lo, s->hi, true);
+    s->text = keep_texts(write_surface_texts, values, s->lo, s->hi);
     if (s->text == NULL) expression_free(s->program), expression_free(s->radius);
     s->coil.radius = s->radius;
     s->is_coil = s->text != NULL && s->radius != NULL && coil_surface_begin(&s->coil, s->lo, s->hi);

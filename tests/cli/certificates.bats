@@ -48,6 +48,20 @@ near='sphere center=2.01,0.1,0.2'
     done
 }
 
+@test "a certificate states a motion by formulas, whatever its constants are called" {
+    local bore='cylinder radius=0.5 height=3 center=0,0,1' piston='cylinder radius=0.49 height=0.6 ends=true'
+    local crank='motion-formula offset=["0","0","r*cos(9*t)+sqrt(1.44-(r*sin(9*t))^2)"] constants={"r":0.4}'
+    run -0 "$IMPINGE" pair "$bore" "$piston ! $crank" --gamma 1e-3 --proof clear.proof
+    [[ $output == clear* ]]
+    run -0 verify clear.proof
+    [ "${lines[0]}" = holds ]
+    run -0 "$IMPINGE" pair sphere 'sphere center=3,0,0 ! motion-formula angle=m_A*t axis=0,0,1
+        center=1,0,0 offset=["l-1","0","0"] constants={"m_A":4,"l":1,"k0":9}' --gamma 1e-3 --proof meets.proof
+    [[ $output == contact* ]]
+    run -0 verify meets.proof
+    [[ ${lines[0]} == holds && ${lines[1]} == contact* ]]
+}
+
 @test "a certificate states the sides and ends of a straight extrusion by exact numbers" {
     local nut='extrusion profile=[[1,0.1],[0.3,0.9],[-1,0.7],[-0.9,-1],[1,0.1]] degree=1 vector=0.1,0,1 ends=true'
     run -0 "$IMPINGE" pair "$nut" 'sphere center=0.1,0.2,2.11' --gamma 1e-3 --proof side.proof

@@ -18,7 +18,9 @@ disproves() {
 @test "types that take their formula as text are proved" {
     local type
     for type in formula 'formula x=u*exp(-u*v) y=sqrt(1+v*v) z=u*t' \
-        'map-formula x=x*cos(t)-y*sin(t) y=x*sin(t)+y*cos(t)'; do
+        'map-formula x=x*cos(t)-y*sin(t) y=x*sin(t)+y*cos(t)' \
+        'motion-formula offset=["0","0.1*t^2","0.4*cos(9*t)+sqrt(1.44-(0.4*sin(9*t))^2)"]' \
+        'motion-formula angle=sin(3*t)*k axis=1,2,3 constants={"k":2,"mm":3,"m_C":5}'; do
         run -0 "$IMPINGE" check "$type" --effort 0.1
         [[ $output == *"  pass  proof "*" claims over "*" regions are proved"*"  proved("*", 1): "* ]]
     done
@@ -68,6 +70,10 @@ follows() {
     follows 'translate velocity=1,.3,0' 'x+t' 'y+.3*t' z
     follows 'rotate axis=1,1,1 rate=1' "$m + cos(t)*(x-$m) + sin(t)*(z-y)/sqrt(3)" \
         "$m + cos(t)*(y-$m) + sin(t)*(x-z)/sqrt(3)" "$m + cos(t)*(z-$m) + sin(t)*(y-x)/sqrt(3)"
+    follows 'motion-formula angle=t*mm_d axis=1,1,1 offset=["0","t*t","1"] constants={"mm_d":1}' \
+        "$m + cos(t)*(x-$m) + sin(t)*(z-y)/sqrt(3)" \
+        "$m + cos(t)*(y-$m) + sin(t)*(x-z)/sqrt(3) + t^2" \
+        "$m + cos(t)*(z-$m) + sin(t)*(y-x)/sqrt(3) + 1"
     follows 'scale factors=[[1],[.5]]' 'x*(1+.5*t)' 'y*(1+.5*t)' 'z*(1+.5*t)'
     follows 'screw pitch=.5 rate=6' 'cos(6*t)*x-sin(6*t)*y' 'sin(6*t)*x+cos(6*t)*y' 'z+1.5*t/pi'
     a='(1 - .5*t*clamp((z+1)/2, 0, 1))'

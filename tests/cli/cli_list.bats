@@ -120,6 +120,7 @@ load ../support/cli_helper
     [ "$(uses bezier)" = 'core order-2 net formula renew' ]
     [ "$(uses translate)" = 'core order-2 net rigid span formula renew' ]
     [ "$(uses rotate)" = 'core order-2 rigid span formula renew' ]
+    [ "$(uses motion-formula)" = 'core order-2 rigid formula' ]
     [ "$(uses tolerance)" = 'core order-2 formula parts' ]
     run -0 "$IMPINGE" info triangle
     [[ $output == *'uses       core order-2 net formula'* ]]

@@ -129,11 +129,9 @@ static void translate(const type_arguments *arguments, const number p[4], number
 }
 
 /* Rodrigues: w cos A + (k x w) sin A + k (k.w) (1 - cos A). */
-static void rotate(const type_arguments *arguments, const number p[4], number x[3])
+static void turn_about(const type_arguments *arguments, number angle, const number p[3],
+                       number x[3])
 {
-    number angle;
-    if (!table_oracle(arguments, "angles", 0, p[3], &angle))
-        angle = polynomial(arguments, "rate", "angle", 0, p[3]);
     number cosine = num_cos(angle), sine = num_sin(angle), k[3], w[3], square = num(0);
     for (size_t i = 0; i < 3; ++i) {
         k[i] = argument_at(arguments, "axis", i);
@@ -154,15 +152,22 @@ static void rotate(const type_arguments *arguments, const number p[4], number x[
     add_center(arguments, x);
 }
 
+static void rotate(const type_arguments *arguments, const number p[4], number x[3])
+{
+    number angle;
+    if (!table_oracle(arguments, "angles", 0, p[3], &angle))
+        angle = polynomial(arguments, "rate", "angle", 0, p[3]);
+    turn_about(arguments, angle, p, x);
+}
+
 /* --- Texts of formulas ------------------------------------------------------------------------ */
 
 enum { NAMES = 20 };
 
 /* Variables, which are one letter each, then constants. */
-static void texts(const type_arguments *arguments, const char *const *variable, const number *p,
-                  size_t variables, number x[3])
+static number text_value(const type_arguments *arguments, const char *text,
+                         const char *const *variable, const number *p, size_t variables)
 {
-    static const char *const coordinate[] = {"x", "y", "z"};
     const imp_value *constants = argument(arguments, "constants");
     const char *name[NAMES];
     number value[NAMES];
@@ -174,8 +179,16 @@ static void texts(const type_arguments *arguments, const char *const *variable, 
         value[count] = num(constants->number[k]);
     }
     const oracle_names names = {count, name, value};
+    return expression_oracle(text, &names);
+}
+
+static void texts(const type_arguments *arguments, const char *const *variable, const number *p,
+                  size_t variables, number x[3])
+{
+    static const char *const coordinate[] = {"x", "y", "z"};
     for (int i = 0; i < 3; ++i)
-        x[i] = expression_oracle(argument(arguments, coordinate[i])->string[0], &names);
+        x[i] = text_value(arguments, argument(arguments, coordinate[i])->string[0], variable, p,
+                          variables);
 }
 
 static void formula(const type_arguments *arguments, const number p[3], number x[3])
@@ -188,6 +201,17 @@ static void map_formula(const type_arguments *arguments, const number p[4], numb
 {
     static const char *const variable[] = {"x", "y", "z", "t"};
     texts(arguments, variable, p, 4, x);
+}
+
+static void motion_formula(const type_arguments *arguments, const number p[4], number x[3])
+{
+    static const char *const variable[] = {"t"};
+    const imp_value *offset = argument(arguments, "offset"), *angle = argument(arguments, "angle");
+    for (int i = 0; i < 3; ++i) x[i] = p[i];
+    if (angle->count > 0)
+        turn_about(arguments, text_value(arguments, angle->string[0], variable, p + 3, 1), p, x);
+    for (int i = 0; i < 3; ++i)
+        x[i] = num_add(x[i], text_value(arguments, offset->string[i], variable, p + 3, 1));
 }
 
 /* --- The table -------------------------------------------------------------------------------- */
@@ -477,6 +501,17 @@ const type_oracle oracles[] = {
                    " \"z\": \"hypot(x,y,z)+1*cbrt(z)*tanh(x)\"}",
                    "{\"x\": \"copysign(sqrt(abs(x)),x)\", \"y\": \"max(y,-z)*e^-abs(x)\","
                    " \"z\": \"z*(2+1*sin(y))^-1.5+1*t\", \"time\": [-1,1]}"}},
+    {.type = "motion-formula",
+     .map = motion_formula,
+     .instances = {"{}",
+                   "{\"offset\": [\"0\", \"t\", \"0.4*cos(9*t)-sqrt(1.44-(0.4*sin(9*t))^2)\"]}",
+                   "{\"angle\": \"a*t-sin(k*t)\", \"constants\": {\"a\": ?, \"k\": ?}}",
+                   "{\"offset\": [\"1e3*t\", \"exp(-t^2)\", \"a\"], \"angle\": \"abs(t)*t/3\","
+                   " \"axis\": [?,?,?], \"center\": [?,?,?], \"constants\": {\"a\": ?}}",
+                   "{\"angle\": \"asin(t/9)\", \"axis\": [0,-3,0], \"center\": [1e6,0,1],"
+                   " \"time\": [-1,2]}",
+                   "{\"angle\": \"0.5\", \"offset\": [\"1/(5-t)\", \"0\", \"1e-9*t^3\"],"
+                   " \"axis\": [1,1e-3,0], \"time\": [-1,1]}"}},
     {.type = "scale",
      .map = scale_oracle,
      .instances = {"{\"factor\": +}", "{\"factor\": [?,?,?], \"center\": [?,?,?]}",

@@ -25,6 +25,57 @@ START_TEST(a_turn_of_the_screw_advances_by_its_pitch)
 }
 END_TEST
 
+START_TEST(a_crank_by_formula_turns_and_moves_its_piston)
+{
+    instance made = map("motion-formula",
+                        "{\"offset\": [\"0\", \"0\", \"r*cos(2*t)+1*sqrt(4-(r*sin(2*t))^2)\"],"
+                        " \"constants\": {\"r\": 1}}");
+    expect_image(&made, (double[4]){5, 6, 7, 0}, (double[3]){5, 6, 10}, 1e-15);
+    expect_image(&made, (double[4]){5, 6, 7, M_PI_4}, (double[3]){5, 6, 7 + sqrt(3)}, 1e-14);
+    expect_image(&made, (double[4]){5, 6, 7, M_PI_2}, (double[3]){5, 6, 8}, 1e-14);
+    instance_free(&made);
+    made = map("motion-formula", "{\"angle\": \"pi*t^2/2\", \"axis\": [0,0,3], \"center\":"
+                                 " [1,0,0], \"offset\": [\"t\", \"0\", \"5\"]}");
+    expect_image(&made, (double[4]){3, 0, 0, 0}, (double[3]){3, 0, 5}, 0);
+    expect_image(&made, (double[4]){3, 0, 0, 1}, (double[3]){2, 2, 5}, 1e-14);
+    expect_image(&made, (double[4]){3, 0, 0, -1}, (double[3]){0, 2, 5}, 1e-14);
+    instance_free(&made);
+}
+END_TEST
+
+/* Where a text is undefined, or infinitely steep, nothing is claimed. */
+START_TEST(a_motion_is_unbounded_where_its_formulas_are)
+{
+    static const char *const texts[] = {"{\"angle\": \"sqrt(t)\"}",
+                                        "{\"offset\": [\"0\", \"sqrt(t)\", \"0\"]}"};
+    static const struct {
+        double lo, hi;
+        imp_status expected;
+    } spans[] = {{-2, -1, IMP_STATUS_UNBOUNDED}, {-1, -1, IMP_STATUS_UNBOUNDED},
+                 {-1, 1, IMP_STATUS_UNBOUNDED},  {0, 1, IMP_STATUS_UNBOUNDED},
+                 {1, 2, IMP_STATUS_OK},          {1, 1, IMP_STATUS_OK}};
+    for (size_t k = 0; k < sizeof texts / sizeof *texts; ++k) {
+        instance made = map("motion-formula", texts[k]);
+        const double before[4] = {1, 2, 3, -1};
+        double x[3];
+        ck_assert_int_eq(made.map->eval(made.self, 1, before, x, NULL), IMP_STATUS_DOMAIN);
+        for (size_t i = 0; i < sizeof spans / sizeof *spans; ++i) {
+            const imp_region region =
+                region_make((double[3]){0, 0, spans[i].lo}, (double[3]){0, 0, spans[i].hi});
+            const imp_model t =
+                spans[i].lo < spans[i].hi ? imp_param(&region, 2) : imp_num(spans[i].lo);
+            const imp_model in[4] = {imp_num(1), imp_num(2), imp_num(3), t};
+            imp_model out[3];
+            imp_pose pose;
+            memset(&pose, 0, sizeof pose);
+            ck_assert_int_eq(made.map->rigid(made.self, &t, &pose), spans[i].expected);
+            ck_assert_int_eq(made.map->apply(made.self, in, out), spans[i].expected);
+        }
+        instance_free(&made);
+    }
+}
+END_TEST
+
 START_TEST(scaling_grows_collapses_and_mirrors_about_its_centre)
 {
     instance made = map("scale", "{\"factors\": [[1],[-1]], \"center\": [1,1,1]}");
@@ -271,6 +322,8 @@ static const struct limit {
     {"scale", "{\"factors\": [[1,1,1],[1,2,3]]}", 1.4, 1.3},
     {"rotate", "{\"axis\": [?,?,?], \"rate\": 2}", 1.9, 1.8},
     {"screw", "{\"axis\": [?,?,?], \"rate\": 2}", 1.9, 1.8},
+    {"motion-formula", "{\"axis\": [?,?,?], \"angle\": \"2*t\"}", 1.9, 1.8},
+    {"motion-formula", "{\"offset\": [\"0\", \"0\", \"sin(2*t)\"]}", 1.9, 1.8},
     {"taper", "{\"range\": [-10,10]}", 1.3, 1.2},
     {"taper", "{\"axis\": [?,?,?], \"end\": [1,?]}", 2.4, 2},
     {"twist", "{}", 1.9, 1.8},
@@ -458,7 +511,8 @@ SUITE_MAIN("maps", a_trajectory_follows_parabolas_and_turns_at_constant_spin,
            tables_pass_through_their_rows_and_go_straight_between_them,
            tables_hold_or_are_undefined_beyond_their_ends,
            models_of_linear_tables_are_exact_between_kinks_and_tight_across,
-           a_turn_of_the_screw_advances_by_its_pitch,
+           a_turn_of_the_screw_advances_by_its_pitch, a_crank_by_formula_turns_and_moves_its_piston,
+           a_motion_is_unbounded_where_its_formulas_are,
            turned_points_are_within_their_errors_beside_long_doubles,
            points_turned_out_of_range_are_undefined,
            scaling_grows_collapses_and_mirrors_about_its_centre, a_wave_travels_at_its_speed,

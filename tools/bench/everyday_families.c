@@ -71,6 +71,16 @@
     "{'type':'trajectory','times':[0,0.5,1],'positions':[[0,0,1],[0,0,0],[0,0,1]],"                \
     "'accelerations':[[0,0,-2],[0,0,-2]]}"
 
+/* A piston on a crank of length 0.4 with a rod of 1.2: by formula, and by a table of it. */
+#define CRANK                                                                                      \
+    "{'type':'motion-formula','offset':['0','0','r*cos(9*t)+sqrt(1.44-(r*sin(9*t))^2)'],"          \
+    "'constants':{'r':0.4}}"
+#define CRANK_TABLE                                                                                \
+    "{'type':'translate','interpolation':'cubic','times':[0,0.125,0.25,0.375,0.5,0.625,0.75,"      \
+    "0.875,1],'positions':[[0,0,1.6],[0,0,1.316912],[0,0,0.907668],[0,0,0.807275],[0,0,1.05019],[" \
+    "0,0,1.491233],[0,0,1.543623],[0,0,1.122995],[0,0,0.824171]]}"
+#define SWING(AXIS) "{'type':'motion-formula','angle':'0.6*sin(6*t)','axis':[" AXIS "]}"
+
 #define TURNED(PROFILE) "{'type':'revolution','profile':[" PROFILE "]}"
 #define TURNED_ARC(PROFILE) "{'type':'revolution','weights':[1,1,2],'profile':[" PROFILE "]}"
 #define VASE TURNED("[0.6,-1],[1.5,-0.4],[0,0.4],[0.6,1]")
@@ -287,4 +297,11 @@ const everyday_family everyday_families[] = {
      FIVE, 50, "", ""},
     {"roller under a sheet that is drawn", SHEET, MOVE("0.5,0,0"), CAN("0.3", "0.9", "0,0,0"),
      TURN(Z_AXIS, "20") "," LAID "," PUT("0,0,-0.3"), BOND_NONE, 0, false, FIVE, 50, "", ""},
+    /* by formula */
+    {"piston on a crank", CYLINDER("0.5", "3", "0,0,1"), PLACE, CAN("~0.5", "0.6", "0,0,0"),
+     CRANK "," PLACE, BOND_NONE, 0, false, FIVE, 50, "", ""},
+    {"piston on a crank, by table", CYLINDER("0.5", "3", "0,0,1"), PLACE,
+     CAN("~0.5", "0.6", "0,0,0"), CRANK_TABLE "," PLACE, BOND_NONE, 0, false, FIVE, 50, "", ""},
+    {"door that swings", FLOOR, PLACE, BOX("1,0.1,2", "0.6,0,@1"), SWING(Z_AXIS) "," SAME_PLACE,
+     BOND_NONE, 0, false, FIVE, 50, "", ""},
     {NULL, "", "", "", "", BOND_NONE, 0, false, "", 0, "", ""}};
