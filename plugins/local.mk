@@ -227,14 +227,14 @@ plugins_libpatch_la_SOURCES = \
     plugins/patch/triangle.c plugins/patch/triangle.h
 plugins_libpatch_la_CFLAGS = $(AM_CFLAGS) $(UNROLL_CFLAGS)
 plugins_libpatch_la_LDFLAGS =
-plugins_bezier_la_LIBADD = plugins/libpatch.la
-plugins_bezier_triangle_la_LIBADD = plugins/libpatch.la
+plugins_bezier_la_LIBADD = plugins/libpatch.la plugins/libcommon.la
+plugins_bezier_triangle_la_LIBADD = plugins/libpatch.la plugins/libcommon.la
 plugins_extrusion_la_LIBADD = plugins/libpatch.la plugins/libcommon.la
-plugins_ffd_la_LIBADD = plugins/libpatch.la
-plugins_nurbs_la_LIBADD = plugins/libpatch.la
-plugins_product_la_LIBADD = plugins/libpatch.la
+plugins_ffd_la_LIBADD = plugins/libpatch.la plugins/libcommon.la
+plugins_nurbs_la_LIBADD = plugins/libpatch.la plugins/libcommon.la
+plugins_product_la_LIBADD = plugins/libpatch.la plugins/libcommon.la
 plugins_revolution_la_LIBADD = plugins/libpatch.la plugins/libcommon.la
-plugins_sweep_la_LIBADD = plugins/libpatch.la
+plugins_sweep_la_LIBADD = plugins/libpatch.la plugins/libcommon.la
 
 # Files of triangles and polygons.
 noinst_LTLIBRARIES += plugins/libmesh.la
@@ -277,7 +277,8 @@ plugins_libsubdivision_la_SOURCES = \
     plugins/subdivision/quarter_spline.c \
     plugins/subdivision/walk.c plugins/subdivision/walk.h
 plugins_libsubdivision_la_LDFLAGS =
-plugins_subdivision_la_LIBADD = plugins/libsubdivision.la plugins/libpatch.la plugins/libmesh.la
+plugins_subdivision_la_LIBADD = plugins/libsubdivision.la plugins/libpatch.la plugins/libmesh.la \
+    plugins/libcommon.la
 
 # The language of formulas, for the types that take formulas as text.
 noinst_LTLIBRARIES += plugins/libexpression.la
