@@ -120,8 +120,7 @@ static imp_status assemble(const builder *b, size_t variables, const uint16_t ou
     expression_program *p = malloc(sizeof *p + b->count * sizeof p->instructions[0]);
     if (p == NULL) return IMP_STATUS_INTERNAL;
     p->variables = variables;
-    *program = p;
-    if (write_instructions(b, out, a, p)) return IMP_STATUS_OK;
+    if (write_instructions(b, out, a, p)) return *program = p, IMP_STATUS_OK;
     free(p);
     error->at = EXPRESSION_AT_ALL;
     snprintf(error->message, sizeof error->message,
@@ -141,7 +140,9 @@ static imp_status compile(const expression_scope *scope, const char *const text[
     if (status != IMP_STATUS_OK || form == NULL || !coil_form_find(b, out, form)) return status;
     const uint16_t same[3] = {form->radius, form->radius, form->radius};
     status = assemble(b, variables, same, a, radius, error);
-    if (status != IMP_STATUS_OK) expression_free(*program);
+    if (status == IMP_STATUS_OK) return status;
+    expression_free(*program);
+    *program = NULL;
     return status;
 }
 

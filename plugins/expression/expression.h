@@ -55,7 +55,7 @@ typedef struct expression_error {
 typedef struct expression_program expression_program;
 
 /* IMP_STATUS_OK, and then *program is the caller's to free; IMP_STATUS_PARAMETER, and then *error
- * is set; or IMP_STATUS_INTERNAL: no memory. */
+ * is set; or IMP_STATUS_INTERNAL: no memory. On failure *program is NULL or as it was. */
 imp_status expression_compile(const expression_scope *scope, const char *const text[3],
                               expression_program **program, expression_error *error);
 void expression_free(expression_program *program);

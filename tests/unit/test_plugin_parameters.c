@@ -2,6 +2,8 @@
  * SPDX-License-Identifier: Apache-2.0 */
 #include <config.h>
 
+#include <stdio.h>
+#include <stdlib.h>
 #include <string.h>
 
 #include "tests/support/built_plugins.h"
@@ -268,5 +270,37 @@ START_TEST(wrong_parameters_are_refused_by_name_and_reason)
 }
 END_TEST
 
+/* The sum of as many sines, and their product, have all of them in common. */
+static void write_waves(FILE *to, int count, char sign)
+{
+    for (int k = 1; k <= count; ++k) {
+        if (k > 1) fputc(sign, to);
+        fprintf(to, "sin(%d*t)", k);
+    }
+}
+
+START_TEST(a_motion_of_too_many_common_parts_is_refused)
+{
+    enum { WAVES = 600 };
+    imp_registry *registry = built_registry();
+    imp_error error = {.text = ""};
+    char *text = NULL;
+    size_t size;
+    FILE *to = open_memstream(&text, &size);
+    ck_assert_ptr_nonnull(to);
+    fputs("sphere ! motion-formula offset=[\"", to);
+    write_waves(to, WAVES, '-');
+    fputs("\",\"", to);
+    write_waves(to, WAVES, '*');
+    fputs("\",\"0\"]", to);
+    ck_assert_int_eq(fclose(to), 0);
+    ck_assert_ptr_null(imp_scene_from_pair(registry, text, other_surface, &error));
+    ck_assert_msg(strstr(error.text, "common parts") != NULL, "%s", error.text);
+    free(text);
+    imp_registry_free(registry);
+}
+END_TEST
+
 SUITE_MAIN("plugin parameters", every_example_makes_a_surface_with_points,
-           every_type_says_what_it_is, wrong_parameters_are_refused_by_name_and_reason)
+           every_type_says_what_it_is, wrong_parameters_are_refused_by_name_and_reason,
+           a_motion_of_too_many_common_parts_is_refused)
