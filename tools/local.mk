@@ -341,6 +341,7 @@ tools_libverify_la_SOURCES = \
     tools/verify/net.c tools/verify/net.h \
     tools/verify/net_formula.c tools/verify/net_internal.h \
     tools/verify/net_jets.c \
+    tools/verify/meridian.c tools/verify/meridian.h \
     tools/verify/round.c tools/verify/round.h \
     tools/verify/shadow.c tools/verify/shadow.h \
     tools/verify/cloud.c tools/verify/cloud.h \

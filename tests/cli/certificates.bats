@@ -397,3 +397,15 @@ surface subdivision: holds assuming subdivision' ]
         run -0 verify rollers --quiet
     done
 }
+
+# An axis parts a strip of a cone, and turns with it. In a half plane about their line, one parts all.
+@test "a cone that turns in a cone, and a vase of straight sides, are proved by few tests" {
+    local turn='rotate axis=0,0,1 rate=3' line='revolution profile=[[1,-0.1],[0.5,0.4]]'
+    "$IMPINGE" pair cone "cone center=0,0,-0.1 ! $turn" --gamma 1e-2 --proof cones
+    "$IMPINGE" pair 'revolution profile=[[1,0],[0.5,0.5]]' "$line ! $turn" --gamma 1e-2 --proof turned
+    for pair in cones turned; do
+        run -0 verify "$pair"
+        [[ $output =~ ([0-9]+)" tests" ]]
+        [ "${BASH_REMATCH[1]}" -lt 400 ]
+    done
+}

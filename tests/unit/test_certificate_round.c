@@ -100,6 +100,53 @@ START_TEST(leaves_that_share_a_side_prove_their_own_cells)
 }
 END_TEST
 
-SUITE_MAIN("certificate_round", round_surfaces_are_parted_about_their_centre,
+/* Cones of slope 1, 0.1 apart along their axis: 0.0707 from each other, but beside their apexes. */
+static certificate cones_made(double apart)
+{
+    certificate c = shaft_made();
+    char text[32];
+    snprintf(text, sizeof text, "%g", apart);
+    replace(&c, "0.005", text);
+    replace(&c, "u in [0, 2*pi]; v in [-1, 1]; 0.99*cos(u) + 0; 0.99*sin(u); v",
+            "u in [0, 2*pi]; v in [0, 0.9]; (0.9 - v)*cos(u) + 0; (0.9 - v)*sin(u); v");
+    replace(&c, "u in [0, 2*pi]; v in [-1, 1]; cos(u); sin(u); v\n",
+            "u in [0, 2*pi]; v in [0, 1]; (1 - v)*cos(u); (1 - v)*sin(u); v\n");
+    return c;
+}
+
+START_TEST(cones_are_parted_by_axes_that_turn_about_their_own)
+{
+    static const char turns[] = "x*cos(t) - y*sin(t); x*sin(t) + y*cos(t); z";
+    static const struct {
+        double apart;
+        const char *from, *to;
+        bool holds;
+    } ways[] = {
+        {0.06, turns, turns, true},
+        {0.0708, turns, turns, false},
+        {0.005, turns, "x*cos(3*t) - y*sin(3*t); x*sin(3*t) + y*cos(3*t); z + 0.08*t", true},
+        /* comes nearer than that along the axis, at the end alone, and in the middle alone */
+        {0.005, turns, "x*cos(3*t) - y*sin(3*t); x*sin(3*t) + y*cos(3*t); z + 0.1*t^3", false},
+        {0.005, turns, "x*cos(t) - y*sin(t); x*sin(t) + y*cos(t); z + 0.4*t*(1 - t)", false},
+        /* beside it; by a tilt; as it grows */
+        {0.005, turns, "x*cos(t) - y*sin(t) + 0.12*t; x*sin(t) + y*cos(t); z", false},
+        {0.005, turns, "x + 0.12*t*z; y; z - 0.12*t*x", false},
+        {0.005, turns, "x*(1 + 0.12*t); y*(1 + 0.12*t); z", false},
+        {0.005, turns, "x*(1 + 0.06*t); y*(1 + 0.06*t); z", true},
+        /* of a surface that moves by itself */
+        {0.005, "(0.9 - v)*cos(u) + 0; (0.9 - v)*sin(u); v",
+         "(0.9 - v)*cos(u + t) + 0; (0.9 - v)*sin(u + t); v + 0.11*t^2", false},
+    };
+    for (size_t k = 0; k < sizeof ways / sizeof *ways; ++k) {
+        certificate c = cones_made(ways[k].apart);
+        replace(&c, ways[k].from, ways[k].to);
+        require_within(&c, ways[k].holds ? EFFORT : 2 * EFFORT_OF_CHANGES,
+                       ways[k].holds ? NULL : "");
+    }
+}
+END_TEST
+
+SUITE_MAIN("certificate_round", cones_are_parted_by_axes_that_turn_about_their_own,
+           round_surfaces_are_parted_about_their_centre,
            shafts_that_leave_their_centre_are_not_parted_about_it,
            leaves_that_share_a_side_prove_their_own_cells)

@@ -97,6 +97,8 @@ static bool is_same_centre(const centre *a, const centre *b)
 static bool asks_same(const kept_side *a, const kept_side *b)
 {
     return a->piece == b->piece && a->stamp == b->stamp && a->aim.n[0] == b->aim.n[0] &&
+           a->aim.n[1] == b->aim.n[1] && a->aim.lift == b->aim.lift &&
+           (a->aim.n[1] == 0 || memcmp(a->aim.times, b->aim.times, sizeof a->aim.times) == 0) &&
            memcmp(&a->aim.at, &b->aim.at, sizeof a->aim.at) == 0 && a->aim.slip == b->aim.slip &&
            memcmp(&a->where, &b->where, sizeof a->where) == 0 &&
            is_same_centre(&a->about, &b->about);
@@ -123,6 +125,13 @@ static const char *begin_areas(prover *p, const cell *c, int side, const aim *a)
     }
     *last = now;
     return why;
+}
+
+/* How much an aim's bounds differ by at other times, about. */
+static double rough_slip(const aim *a, const limits *r)
+{
+    if (a->n[1] == 0) return 0.5 * a->slip / fabs(r->ends[0]);
+    return 0.5 * fabs(a->n[0]) * a->slip / a->radius + fabs(a->n[1]) * a->lift;
 }
 
 /* Divides an area. False: the test ends with *outcome; what lacks a part is not kept. */
@@ -167,8 +176,7 @@ static apart_outcome try_aims(prover *p, const cell *c, const aim a[2], double c
             tried->left = m.most > 0 ? m.low / m.most : -INFINITY;
             take_trial(p, a, r, limit, tried);
         }
-        const double slips =
-            0.5 * (a[0].slip / fabs(r[0].ends[0]) + a[1].slip / fabs(r[1].ends[0]));
+        const double slips = rough_slip(&a[0], &r[0]) + rough_slip(&a[1], &r[1]);
         if (m.most > 0 && slips > 0.5 * m.most) return tried->time = INFINITY, DIVIDE;
         const int step = boxes > begun ? (int)(boxes - begun) : 0;
         if (!(m.most > 0) || is_hopeless(step, a[0].about != NULL, m.low, m.most)) return DIVIDE;
@@ -222,7 +230,7 @@ apart_outcome apart_by_centres(prover *p, const cell *c, apart_trial *tried)
     for (int k = 0; k < p->centre_count; ++k) {
         aim a[2];
         double change_upper;
-        if (!centre_aims(p->known, &p->centres[k], of, where, a, &change_upper)) continue;
+        if (!centre_aims(p->known, &p->centres[k], of, where, p->apart, a, &change_upper)) continue;
         const apart_outcome o = try_aims(p, c, a, change_upper, tried);
         p->wasted = o == APART ? 0 : p->wasted + p->areas[0].count + p->areas[1].count;
         if (o != DIVIDE) return o;

@@ -66,19 +66,20 @@ static const kept_motion *look_motion(memory *all, const place *of, double lo, d
 }
 
 const form_changes *look_changes(memory *all, const place *of, double lo, double hi,
-                                 const double c[3], ld_interval e[3][3])
+                                 const double c[3], ld_interval e[3][3], const double w[3])
 {
     const double times[2] = {lo, hi};
     kept_changes *k = &all->changes[mixed(place_key(of), times, 2) & (KEPT_CHANGES - 1)];
     if (k->chain == of->chain && k->maps == of->maps && k->stamp == of->when->stamp &&
         k->lo == lo && k->hi == hi && memcmp(k->c, c, sizeof k->c) == 0 &&
-        memcmp(k->e, e, sizeof k->e) == 0)
+        memcmp(k->e, e, sizeof k->e) == 0 && memcmp(k->w, w, sizeof k->w) == 0)
         return &k->found;
     k->chain = of->chain, k->maps = of->maps, k->stamp = of->when->stamp;
     k->lo = lo, k->hi = hi;
     memcpy(k->c, c, sizeof k->c);
     memcpy(k->e, e, sizeof k->e);
-    motion_form_changes(of, lo, hi, c, e, &k->found);
+    memcpy(k->w, w, sizeof k->w);
+    motion_form_changes(of, lo, hi, c, e, w, &k->found);
     return &k->found;
 }
 

@@ -49,6 +49,7 @@ typedef struct kept_changes {
     uint64_t stamp;
     double lo, hi, c[3];
     ld_interval e[3][3];
+    double w[3];
     form_changes found;
 } kept_changes;
 
@@ -66,9 +67,9 @@ void look_free(memory *all); /* may be NULL */
 /* Encloses a box of a piece in jets. */
 const kept *look_jets(memory *all, const place *of, const box3 *where);
 
-/* Bounds how much a quadratic form about c changes over some times. */
+/* Bounds how much a quadratic form about c, and w.x, change over some times. */
 const form_changes *look_changes(memory *all, const place *of, double lo, double hi,
-                                 const double c[3], ld_interval e[3][3]);
+                                 const double c[3], ld_interval e[3][3], const double w[3]);
 
 /* Encloses a box of a piece in control points. ENCLOSED, with a net NULL: it has no bounds. */
 enclosed look_net(memory *all, const place *of, const box3 *where, form *found, split *divide);

@@ -290,10 +290,23 @@ static jet form_of(const jet n[3][4], ld_interval e[3][3], int i, int k)
     return sum;
 }
 
-/* Computes N^T E N, which is symmetric like E, over some times. False: the maps may not be affine
- * there. */
+/* Returns the element k of w^T N. */
+static jet lift_of(const jet n[3][4], const double w[3], int k)
+{
+    jet sum = jet_constant(1, ld_interval_of(0));
+    for (int a = 0; a < 3; ++a) {
+        const jet term = jet_scale(&n[a][k], ld_interval_of(w[a]));
+        sum = jet_add(&sum, &term);
+    }
+    return sum;
+}
+
+/* Row 4 holds w^T N; the others N^T E N, which is symmetric like E. */
+typedef ld_interval form_elements[5][4];
+
+/* Computes the elements over some times. False: the maps may not be affine there. */
 static bool take_form(const place *p, double lo, double hi, const double c[3], ld_interval e[3][3],
-                      ld_interval g[4][4])
+                      const double w[3], form_elements g)
 {
     layered all;
     affine *n = &all.base;
@@ -311,24 +324,30 @@ static bool take_form(const place *p, double lo, double hi, const double c[3], l
             const jet wide = form_of(n->wide, e, i, k), narrow = form_of(n->centre, e, i, k);
             g[i][k] = g[k][i] = jet_values(&wide, &narrow, n->offset);
         }
+    for (int k = 0; k < 4 && is_one; ++k) {
+        const jet wide = lift_of(n->wide, w, k), narrow = lift_of(n->centre, w, k);
+        g[4][k] = jet_values(&wide, &narrow, n->offset);
+    }
     free(all.ways);
     return is_one;
 }
 
 void motion_form_changes(const place *p, double lo, double hi, const double c[3],
-                         ld_interval e[3][3], form_changes *to)
+                         ld_interval e[3][3], const double w[3], form_changes *to)
 {
     const double at = middle(lo, hi);
-    ld_interval before[4][4], now[4][4];
+    form_elements before, now;
     double from = lo;
-    *to = (form_changes){.are_known = p->maps == 0 || take_form(p, at, at, c, e, before)};
+    *to = (form_changes){.are_known = p->maps == 0 || take_form(p, at, at, c, e, w, before)};
     for (int n = 0; n < CHANGE_PARTS && to->are_known && p->maps > 0; ++n) {
         const double share = (n + 1.0) / CHANGE_PARTS;
         const double end = n + 1 < CHANGE_PARTS ? proof_smaller(lo + (hi - lo) * share, hi) : hi;
-        to->are_known = take_form(p, from, end, c, e, now);
-        for (int i = 0; i < 4 && to->are_known; ++i)
-            for (int k = 0; k < 4; ++k)
-                to->most[n][i][k] = ld_interval_mag(ld_interval_sub(now[i][k], before[i][k]));
+        to->are_known = take_form(p, from, end, c, e, w, now);
+        for (int i = 0; i < 5 && to->are_known; ++i)
+            for (int k = 0; k < 4; ++k) {
+                double *change = i < 4 ? &to->most[n][i][k] : &to->lift[n][k];
+                *change = ld_interval_mag(ld_interval_sub(now[i][k], before[i][k]));
+            }
         from = end;
     }
 }
@@ -347,6 +366,21 @@ double form_change_upper(const form_changes *s, const double size[3])
                 const ld_interval by = ld_interval_mul(ld_interval_of(h[i]), ld_interval_of(h[k]));
                 sum = ld_interval_add(sum, ld_interval_mul(ld_interval_of(s->most[n][i][k]), by));
             }
+        if (!(sum.hi <= most)) most = sum.hi;
+    }
+    return most;
+}
+
+double form_lift_upper(const form_changes *s, const double size[3])
+{
+    double most = 0;
+    if (!s->are_known) return INFINITY;
+    for (int n = 0; n < CHANGE_PARTS; ++n) {
+        ld_interval sum = ld_interval_of(s->lift[n][3]);
+        for (int k = 0; k < 3; ++k) {
+            const ld_interval by = ld_interval_of(s->lift[n][k]);
+            sum = ld_interval_add(sum, ld_interval_mul(by, ld_interval_of(size[k])));
+        }
         if (!(sum.hi <= most)) most = sum.hi;
     }
     return most;

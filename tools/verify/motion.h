@@ -25,16 +25,20 @@ enum { CHANGE_PARTS = 16 };
 typedef struct form_changes {
     bool are_known; /* false: the maps may not be affine */
     double most[CHANGE_PARTS][4][4];
+    double lift[CHANGE_PARTS][4]; /* of w^T N h */
 } form_changes;
 
 /* Bounds how much the elements of h^T N^T E N h change over the times from lo to hi from what they
- * are at their middle; N h = M p + d - c, h = (p, 1), E symmetric. */
+ * are at their middle, and those of w^T N h; N h = M p + d - c, h = (p, 1), E symmetric. */
 void motion_form_changes(const place *p, double lo, double hi, const double c[3],
-                         ld_interval e[3][3], form_changes *to);
+                         ld_interval e[3][3], const double w[3], form_changes *to);
 
 /* Returns an upper bound of how much x^T E x changes, x = M p + d - c, |p[i]| <= size[i]; INFINITY:
  * it is not known. */
 double form_change_upper(const form_changes *s, const double size[3]);
+
+/* Returns an upper bound of how much w^T x changes, likewise. */
+double form_lift_upper(const form_changes *s, const double size[3]);
 
 /* Returns an upper bound d of |J^T J - 1| for the Jacobian J of a map, at all times from lo to hi.
  * If d < 1, the map is affine at each time, and multiplies no length by less than the root of 1 -

@@ -23,16 +23,24 @@ bool centre_is_shared(const centre *a, const centre *b);
  * has none, as far as is seen. What is computed from a bad guess costs time only. */
 bool centre_guess(memory *known, const place *of, double t, centre *found);
 
-/* Makes the aims of both sides from that centre to points beyond, and an upper bound of how much
- * the distance from it changes for a unit of length. `where` is the box of either side. */
+/* Makes the aims of both sides from that centre to points beyond, which shall be `apart`, and an
+ * upper bound of how much what they bound changes for a unit of length. `where` is the box of
+ * either side. */
 bool centre_aims(memory *known, const centre *about, const place of[2], const box3 where[2],
-                 aim a[2], double *change_upper);
+                 double apart, aim a[2], double *change_upper);
 
-/* Computes x - c, or (x - c) x d where the centre is a line. */
-void centre_parts(const jet x[3], const centre *about, jet r[3]);
+/* Computes x - c, or (x - c) x d where the centre is a line; and then (x - c).d. */
+enum { CENTRE_PARTS = 4 };
+void centre_parts(const jet x[3], const centre *about, jet r[CENTRE_PARTS]);
 
-/* Computes the distance from a centre from its parts, times |d| if that is a line, with the sign of
- * the aim. */
-jet centre_distance(const jet r[3], const aim *a);
+/* Computes what an aim bounds, from those parts: the distance from the centre, with the sign of the
+ * aim; of a line by the aim's weights, |(x - c) x d| and (x - c).d. */
+jet centre_distance(const jet r[CENTRE_PARTS], const aim *a);
+
+/* Bounds how much that changes from the aim's time to its others, for the points of a box whose
+ * distance from the line at that time, times |d|, is at least `least`. INFINITY: it is not known.
+ * Precondition: the surface does not move by itself. */
+double centre_change_upper(memory *known, const place *of, const box3 *where, const aim *a,
+                           double least);
 
 #endif

@@ -39,7 +39,7 @@ static void find_sizes(const jet *over, const jet *at, const jet parts[3],
 static ld_interval distances(const kept *k, const aim *a, double *at_centre, double *size,
                              double *blur)
 {
-    jet wide[3], narrow[3];
+    jet wide[CENTRE_PARTS], narrow[CENTRE_PARTS];
     centre_parts(k->box, a->about, wide);
     centre_parts(k->centre, a->about, narrow);
     const jet over = centre_distance(wide, a), at = centre_distance(narrow, a);
@@ -147,6 +147,14 @@ static const char *add_halves(areas *all, const place *of, const box3 *where, co
     return why != NULL ? why : areas_add(all, of, &half[1], a);
 }
 
+/* Returns a lower bound of the distance from the line, times |d|. */
+static double least_distance(const kept *k, const aim *a)
+{
+    const aim out = {.n = {1, 0, 0}, .about = a->about};
+    double unused[2];
+    return distances(k, &out, &unused[0], NULL, &unused[1]).lo;
+}
+
 /* What distances at one time, with the sign of the aim, are at all times. */
 static ld_interval slipped(ld_interval x, const aim *a)
 {
@@ -159,6 +167,18 @@ static ld_interval slipped(ld_interval x, const aim *a)
     return a->n[0] > 0 ? root : ld_interval_neg(root);
 }
 
+/* Bounds what an aim about a centre bounds of an area; s->ends[0] becomes that of its middle. */
+static ld_interval cast_about(memory *known, area *s, const kept *k, const aim *a)
+{
+    double unused;
+    const ld_interval x = distances(k, a, &s->ends[0], NULL, &unused);
+    if (a->n[1] == 0) return slipped(x, a);
+    if (a->slip == 0 && a->lift == 0) return x;
+    const double least = least_distance(k, a);
+    const double change = centre_change_upper(known, &s->of, &s->where, a, least);
+    return ld_interval_add(x, ld_interval_plus_minus(change));
+}
+
 /* Bounds an area, whose bounds are infinite. */
 static enclosed cast(areas *all, area *s, const aim *a, split *by)
 {
@@ -168,8 +188,7 @@ static enclosed cast(areas *all, area *s, const aim *a, split *by)
         const kept *k = look_jets(all->memory, &s->of, &s->where);
         result = k->result, *by = k->divide;
         if (result != ENCLOSED) return result;
-        double unused;
-        const ld_interval all_of_it = slipped(distances(k, a, &s->ends[0], NULL, &unused), a);
+        const ld_interval all_of_it = cast_about(all->memory, s, k, a);
         s->ends[1] = s->ends[0], s->least = all_of_it.lo;
         for (int i = 0; i < NET_TIMES; ++i) s->upper[i] = all_of_it.hi;
         return result;

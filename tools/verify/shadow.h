@@ -12,13 +12,17 @@
 
 typedef struct centre centre; /* round.h */
 
-/* Each side's own direction of an axis: n of A, -n of B. Or away from a centre, if n[0] > 0, or
- * towards it. */
+/* Each side's own direction of an axis: n of A, -n of B. Or away from a centre, n[0] = 1, or
+ * towards it, n[0] = -1; where that is a line, n[0] and n[1] are any weights of the distance from
+ * it and of the height along it (meridian.h), the signs of B's being opposite. */
 typedef struct aim {
     double n[3];
     const centre *about; /* NULL: an axis */
-    double at;   /* of a centre: the time at which distances are bounded; NAN: at all times */
-    double slip; /* how much their squares change from that time, at most */
+    double at;       /* of a centre: the time at which distances are bounded; NAN: at all times */
+    double times[2]; /* for which that one stands */
+    double slip;     /* how much their squares change from that time, at most; */
+    double lift;     /* and heights; where n[1] is 0, 0 */
+    double radius;   /* of the middle, about */
 } aim;
 
 /* A box of a piece of one side, which may be divided while the other side is not; along u and v
