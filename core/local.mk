@@ -43,7 +43,7 @@ core_surface = \
     core/surface/carried.c core/surface/carried.h \
     core/surface/clocked.c core/surface/clocked.h \
     core/surface/formula_text.c core/surface/formula_text.h \
-    core/surface/held.c core/surface/held.h \
+    core/surface/held.c core/surface/held.h core/surface/held_place.c \
     core/surface/instance.c core/surface/instance.h \
     core/surface/instance_words.c \
     core/surface/region.c core/surface/region.h \

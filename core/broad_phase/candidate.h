@@ -16,7 +16,7 @@ typedef struct candidate {
     tree *tree;
     size_t body, surface;
     size_t left_out;   /* number of the surface's last maps that its tree leaves out */
-    size_t held;       /* number of its first maps that its tree holds at one moment */
+    held_maps held;    /* its first maps that its tree holds at one moment */
     double eval_error; /* of evaluated points, about; < 0: not measured yet; length */
     size_t still_maps; /* once measured: surface_still_maps, if it has distances */
     bool moves;        /* once measured: a point was seen to move; false if it has pieces */

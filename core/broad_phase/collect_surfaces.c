@@ -100,7 +100,7 @@ imp_code collection_make_tree(collection *all, const surface_view *view, candida
                         .body = view->body,
                         .surface = view->surface,
                         .left_out = view->left_out,
-                        .held = view->held.count,
+                        .held = view->held,
                         .eval_error = -1};
     return IMP_SUCCESS;
 }

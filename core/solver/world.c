@@ -55,11 +55,12 @@ static imp_code place_side(const imp_scene *scene, const candidate *of, const wi
     *at = (imp_side){of->body,       of->surface,    found->piece[side],
                      found->u[side], found->v[side], {0, 0, 0}};
     memcpy(at->point, found->point[side].x, sizeof at->point);
-    if (of->left_out == 0 && of->held == 0) return IMP_SUCCESS;
+    if (of->left_out == 0 && of->held.count == 0) return IMP_SUCCESS;
     const surface *s = piece_of(scene, at);
     const size_t maps = surface_map_count(s) - of->left_out;
     imp_status status = IMP_STATUS_OK;
-    if (of->held > 0) status = surface_held_place(s, maps, t, found->point[side].x, &at->u, &at->v);
+    if (of->held.count > 0)
+        status = surface_held_place(s, of->held, maps, t, found->point[side].x, &at->u, &at->v);
     if (status == IMP_STATUS_OK)
         status = surface_eval(s, 1, (double[3]){at->u, at->v, t}, at->point, NULL);
     return status == IMP_STATUS_OK ? IMP_SUCCESS : fault(s, status, t, error);
@@ -83,7 +84,7 @@ imp_code world_witness_of(const imp_scene *scene, const candidate_pair *both, co
     in_world->gap = found->gap;
     memcpy(in_world->normal, found->normal.x, sizeof in_world->normal);
     const size_t left_out = both->side[0]->left_out;
-    const bool is_held = both->side[0]->held + both->side[1]->held > 0;
+    const bool is_held = both->side[0]->held.count + both->side[1]->held.count > 0;
     if (left_out == 0 && !is_held) return IMP_SUCCESS;
     const double gap = distance_of(in_world->side);
     in_world->gap = gap <= most ? gap : found->gap_upper;

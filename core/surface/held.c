@@ -11,25 +11,21 @@
 
 /* --- Which maps are held ---------------------------------------------------------------------- */
 
-/* The parameter along which rotations about the line take points to each other; -1: none. */
-static int orbit_of(const surface *s)
-{
-    imp_symmetry found;
-    if (surface_symmetry(s, &found) != IMP_STATUS_OK) return -1;
-    if ((found.is_closed & IMP_SYMMETRY_CLOSED) == 0 || symmetry_is_screw(&found)) return -1;
-    if ((found.is_closed & IMP_SYMMETRY_ORBIT_U) != 0) return 0;
-    return (found.is_closed & IMP_SYMMETRY_ORBIT_V) != 0 ? 1 : -1;
-}
-
-/* Whether s is closed about one line, along whose circles each piece has a parameter. */
+/* Whether s is closed about one line. */
 static bool is_round(const surface *s, imp_symmetry *line)
 {
+    return surface_closed_symmetry(s, true, line) == IMP_STATUS_OK &&
+           line->kind == IMP_SYMMETRY_ABOUT_LINE;
+}
+
+/* Whether each piece goes around the line along one of its parameters. */
+static bool goes_around(const surface *s, const imp_symmetry *line)
+{
     const size_t count = surface_piece_count(s);
-    if (surface_closed_symmetry(s, true, line) != IMP_STATUS_OK) return false;
-    if (line->kind != IMP_SYMMETRY_ABOUT_LINE) return false;
-    bool is = count > 0 || orbit_of(s) >= 0;
-    for (size_t k = 0; k < count && is; ++k) is = orbit_of(surface_piece(s, k)) >= 0;
-    return is;
+    bool all = count > 0 || surface_around_line(s, line) >= 0;
+    for (size_t k = 0; k < count && all; ++k)
+        all = surface_around_line(surface_piece(s, k), line) >= 0;
+    return all;
 }
 
 enum { LINE_POINTS = 3, LINE_NUMBERS = 3 * LINE_POINTS };
@@ -128,7 +124,8 @@ imp_status surface_held_maps(const surface *s, const imp_model bare[3], const im
         status = slip_first_maps(s, true, bare, times, &then, &maps, &slip);
     if (status == IMP_STATUS_OK && maps > 0) status = count_moving(s, times, maps, &moving);
     const double more = power_above(slip + ROUNDING_OF_PLACES * surface_size_upper(bare));
-    if (status == IMP_STATUS_OK && maps > 0 && moving > 0 && more <= enough)
+    if (status == IMP_STATUS_OK && maps > 0 && moving > 0 && more <= enough &&
+        goes_around(s, &line))
         *held = (held_maps){moving, more};
     return status == IMP_STATUS_UNBOUNDED ? IMP_STATUS_OK : status;
 }
@@ -158,104 +155,4 @@ surface *surface_new_held(const surface *s, size_t maps, held_maps held)
     if (ok) return made;
     surface_free(made);
     return NULL;
-}
-
-/* --- The same point under the maps ------------------------------------------------------------ */
-
-/* One parameter of a surface at one time, along which a point is sought. */
-typedef struct circle {
-    const surface *s;
-    int along;    /* 0: u, 1: v */
-    double p[3];  /* u, v, t */
-    double to[3]; /* where the point is */
-    double lo, hi;
-} circle;
-
-static imp_status at_parameter(const circle *c, double w, double x[3])
-{
-    double p[3];
-    memcpy(p, c->p, sizeof p);
-    p[c->along] = w;
-    return surface_eval(c->s, 1, p, x, NULL);
-}
-
-static double square_from(const circle *c, const double x[3])
-{
-    double sum = 0;
-    for (int i = 0; i < 3; ++i) sum += (x[i] - c->to[i]) * (x[i] - c->to[i]);
-    return sum;
-}
-
-enum { SAMPLES = 64, STEPS = 30 };
-
-static imp_status nearest_sample(const circle *c, double *best, double *square)
-{
-    *square = INFINITY;
-    for (int k = 0; k <= SAMPLES; ++k) {
-        const double w = k == SAMPLES ? c->hi : c->lo + (c->hi - c->lo) / SAMPLES * k;
-        double x[3];
-        const imp_status status = at_parameter(c, w, x);
-        if (status != IMP_STATUS_OK) return status;
-        if (square_from(c, x) < *square) *square = square_from(c, x), *best = w;
-    }
-    return IMP_STATUS_OK;
-}
-
-/* Into the range, round its ends. */
-static double wrapped(const circle *c, double w)
-{
-    if (w < c->lo) w += c->hi - c->lo;
-    if (w > c->hi) w -= c->hi - c->lo;
-    return w < c->lo ? c->lo : w > c->hi ? c->hi : w;
-}
-
-/* One of Gauss's steps, with the derivative by differences. *is_done: it leads no nearer. */
-static imp_status step_nearer(const circle *c, double *best, double *square, bool *is_done)
-{
-    const double h = 0x1p-20 * (c->hi - c->lo), a = wrapped(c, *best - h),
-                 b = wrapped(c, *best + h);
-    const double from = a < b ? a : c->lo, to = a < b ? b : c->lo + 2 * h;
-    double x[3], y[3], z[3], along = 0, size = 0;
-    *is_done = true;
-    imp_status status = at_parameter(c, *best, x);
-    if (status == IMP_STATUS_OK) status = at_parameter(c, from, y);
-    if (status == IMP_STATUS_OK) status = at_parameter(c, to, z);
-    if (status != IMP_STATUS_OK) return status;
-    for (int i = 0; i < 3; ++i) {
-        const double slope = (z[i] - y[i]) / (to - from);
-        along += slope * (c->to[i] - x[i]);
-        size += slope * slope;
-    }
-    if (!(size > 0)) return IMP_STATUS_OK;
-    const double next = wrapped(c, *best + along / size);
-    status = at_parameter(c, next, x);
-    if (status != IMP_STATUS_OK || !(square_from(c, x) < *square)) return status;
-    *square = square_from(c, x);
-    *best = next;
-    *is_done = false;
-    return IMP_STATUS_OK;
-}
-
-/* A point farther than this part of its coordinates is none of the surface. */
-#define FOUND_WITHIN 0x1p-30
-
-imp_status surface_held_place(const surface *s, size_t maps, double t, const double x[3], double *u,
-                              double *v)
-{
-    const int along = orbit_of(s);
-    circle c = {.s = s, .along = along, .p = {*u, *v, t}};
-    double lo[3], hi[3], best = 0, square, size = 0;
-    bool is_done = false;
-    if (along < 0) return SURFACE_BAD_SYMMETRY;
-    surface_domain(s, lo, hi);
-    c.lo = lo[along], c.hi = hi[along];
-    memcpy(c.to, x, sizeof c.to);
-    imp_status status = surface_move_outward(s, maps, t, 1, c.to);
-    for (int i = 0; i < 3; ++i) size += fabs(c.to[i]);
-    if (status == IMP_STATUS_OK) status = nearest_sample(&c, &best, &square);
-    for (int k = 0; k < STEPS && !is_done && status == IMP_STATUS_OK; ++k)
-        status = step_nearer(&c, &best, &square, &is_done);
-    if (status != IMP_STATUS_OK) return status;
-    *(along == 0 ? u : v) = best;
-    return sqrt(square) <= FOUND_WITHIN * size ? IMP_STATUS_OK : SURFACE_BAD_SYMMETRY;
 }

@@ -26,10 +26,15 @@ double surface_held_moment(const surface *s);
  * times of s. The errors of its points have the slip. NULL: no memory. */
 surface *surface_new_held(const surface *s, size_t maps, held_maps held);
 
-/* Replaces (u, v) by those of the point of s, or of its piece, that is at x at time t under the
- * first `maps` maps, and known to have the same v, or u, as one of the surface held. Returns
- * SURFACE_BAD_SYMMETRY if there is none. */
-imp_status surface_held_place(const surface *s, size_t maps, double t, const double x[3], double *u,
-                              double *v);
+/* Returns the parameter, 0 for u or 1 for v, along which s, before its maps, goes around the line:
+ * all points of the other parameter are on one circle about it, and all of the circle is there. -1:
+ * that is not known. */
+int surface_around_line(const surface *s, const imp_symmetry *line);
+
+/* Replaces (u, v) of a point of the surface held, or of its piece s, which is at x at time t under
+ * the first `maps` maps, by those of the point of s that it stands for. Returns SURFACE_NOT_CLOSED
+ * if that is farther away than the slip and what both evaluations are off. */
+imp_status surface_held_place(const surface *s, held_maps held, size_t maps, double t,
+                              const double x[3], double *u, double *v);
 
 #endif

@@ -99,6 +99,7 @@ bool surface_undefined_instance(const surface *s, double lo, double hi, surface_
 #define SURFACE_BAD_POSE 1014
 #define SURFACE_BAD_DISTANCE 1015
 #define SURFACE_BAD_SYMMETRY 1016
+#define SURFACE_NOT_CLOSED 1021
 #define SURFACE_BAD_SPAN 1017
 #define SURFACE_BAD_FORMULA 1018
 #define SURFACE_LATE 1019 /* an isolated instance had not answered when the time of all was over */

@@ -47,8 +47,10 @@ const char *surface_status_text(imp_status status)
                "inverted, NaN or at infinity";
     case SURFACE_BAD_SYMMETRY:
         return "its symmetry has an unknown kind, a center or an axis that is not finite, or an "
-               "axis "
-               "without length";
+               "axis without length";
+    case SURFACE_NOT_CLOSED:
+        return "its symmetry is said to be closed about a line, but it has no point where a "
+               "rotation takes another one; impinge check --only symmetry tells more";
     case SURFACE_BAD_FORMULA:
         return "printed a formula that is empty, or has other than printable characters";
     case SURFACE_BAD_SPAN:

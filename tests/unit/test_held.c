@@ -2,9 +2,11 @@
  * SPDX-License-Identifier: Apache-2.0 */
 #include <config.h>
 
-#include <impinge/model.h>
 #include <stdarg.h>
-#include <string.h>
+
+#define IMPINGE_PLUGIN_SYMBOL spokes_plugin
+#include <impinge/formula.h>
+#include <impinge/plugin.h>
 
 #include "core/scene/scene.h"
 #include "core/surface/held.h"
@@ -17,9 +19,79 @@
 
 enum { SCENES = 60, POINTS = 40, TEXT = 1200 };
 
+/* --- A disc by diameters ---------------------------------------------------------------------- */
+
+/* Closed, and points of one v are taken to each other by rotations, but they are half a circle: the
+ * other half has the v of other sign. */
+static void spokes_domain(const void *self, double lo[3], double hi[3])
+{
+    (void)self;
+    imp_set_domain(lo, hi, 0, 0.5 * IMP_TWO_PI_UPPER, -0.5, 0.5);
+}
+
+static void spokes_formula(const void *self, imp_model u, imp_model v, imp_model t,
+                           imp_model out[3])
+{
+    imp_model sine, cosine;
+    (void)self, (void)t;
+    imp_sincos(u, &sine, &cosine);
+    out[0] = imp_mul(v, cosine);
+    out[1] = imp_mul(v, sine);
+    out[2] = imp_num(0);
+}
+IMP_SURFACE_FORMULA(spokes_formula)
+
+static imp_model spokes_gap(const void *self, imp_model x, imp_model y, imp_model z, imp_model t)
+{
+    (void)self, (void)x, (void)y, (void)t;
+    return z;
+}
+IMP_DISTANCE_FORMULA(spokes_gap)
+
+static imp_status spokes_symmetry(const void *self, imp_symmetry *symmetry)
+{
+    (void)self;
+    symmetry->kind = IMP_SYMMETRY_ABOUT_LINE;
+    symmetry->is_closed = IMP_SYMMETRY_CLOSED | IMP_SYMMETRY_ORBIT_U;
+    symmetry->axis[2] = 1;
+    return IMP_STATUS_OK;
+}
+
+static imp_status spokes_create(const imp_value *values, void **self, imp_create_error *why)
+{
+    static int instance;
+    (void)values, (void)why;
+    *self = &instance;
+    return IMP_STATUS_OK;
+}
+
+static void spokes_destroy(void *self) { (void)self; }
+
+static const imp_surface_type spokes = {.struct_size = sizeof(imp_surface_type),
+                                        .parameter_size = sizeof(imp_parameter),
+                                        .name = "spokes",
+                                        .summary = "a disc",
+                                        .equation = "(v cos u, v sin u, 0)",
+                                        .example = "spokes",
+                                        .create = spokes_create,
+                                        .destroy = spokes_destroy,
+                                        .domain = spokes_domain,
+                                        .eval = spokes_formula_eval,
+                                        .rate = spokes_formula_rate,
+                                        .include = spokes_formula_include,
+                                        .distance = spokes_gap_distance,
+                                        .symmetry = spokes_symmetry};
+IMPINGE_SURFACE_PLUGIN("spokes", "1.0", "Apache-2.0", "The Impinge authors", spokes);
+
 static imp_registry *registry;
 
-static void open_registry(void) { registry = query_registry(); }
+static void open_registry(void)
+{
+    imp_error error;
+    registry = query_registry();
+    const imp_code code = imp_registry_add(registry, &spokes_plugin, &error);
+    ck_assert_msg(code == IMP_SUCCESS, "%s", error.text);
+}
 
 static void close_registry(void) { imp_registry_free(registry); }
 
@@ -227,9 +299,9 @@ START_TEST(each_point_of_a_surface_held_is_one_of_the_surface)
             for (int j = 0; j < 2; ++j) p[j] = lo[j] + random_fraction(&random) * (hi[j] - lo[j]);
             p[2] = t;
             ck_assert_int_eq(surface_eval(piece_at(still, piece), 1, p, x, NULL), IMP_STATUS_OK);
-            ck_assert_int_eq(
-                surface_held_place(piece_at(s, piece), surface_map_count(s), t, x, &p[0], &p[1]),
-                IMP_STATUS_OK);
+            ck_assert_int_eq(surface_held_place(piece_at(s, piece), held, surface_map_count(s), t,
+                                                x, &p[0], &p[1]),
+                             IMP_STATUS_OK);
             ck_assert_int_eq(surface_eval(piece_at(s, piece), 1, p, found, NULL), IMP_STATUS_OK);
             ck_assert_msg(query_distance(x, found) <= 1e-13, "%s at %.17g: %g", y.a[0], t,
                           query_distance(x, found));
@@ -241,8 +313,8 @@ START_TEST(each_point_of_a_surface_held_is_one_of_the_surface)
 }
 END_TEST
 
-/* A turn beside the line, one by a little less than a rotation of it, and one of a box are not
- * held. */
+/* A turn beside the line, one by a little less than a rotation of it, one of a box, and one of what
+ * has no whole circles are not held. */
 START_TEST(what_turns_beside_its_line_is_not_held)
 {
     static const char *const moving[] = {
@@ -250,6 +322,7 @@ START_TEST(what_turns_beside_its_line_is_not_held)
         "cylinder ! rotate axis=0,1e-9,1 rate=2",
         "torus ! rotate axis=1,0,0 rate=2",
         "box ! rotate axis=0,0,1 rate=2",
+        "spokes ! rotate axis=0,0,1 rate=2",
         "cone ! translate velocity=0,0,1",
         "cylinder ! scale factor=[2,2,2] ! rotate axis=0,0,1 rate=2"};
     for (size_t n = 0; n < sizeof moving / sizeof *moving; ++n) {
@@ -264,6 +337,36 @@ START_TEST(what_turns_beside_its_line_is_not_held)
                          IMP_STATUS_OK);
         ck_assert_msg(held.count == 0, "%s", moving[n]);
         imp_scene_free(scene);
+    }
+}
+END_TEST
+
+/* Far from the origin, through it, and where the first maps leave the line where it is by less than
+ * what a search allows: the points are as near as the gap that is told. */
+START_TEST(points_of_surfaces_held_are_found_wherever_they_are)
+{
+    static const struct {
+        const char *a, *b;
+        double gamma;
+    } row[] = {
+        {"torus major_radius=0.5 minor_radius=0.2 ! rotate axis=0,0,1 rate=6 ! translate "
+         "offset=[[100000000003,100000000000.02,1e11],[-3,0,0]]",
+         "sphere radius=0.3 center=1e11,1e11,100000000000.01", 0.003},
+        {"torus major_radius=0.5 minor_radius=0.2 ! rotate axis=0,0,1 rate=6 ! rotate axis=1,0,0 "
+         "angle=1.5707963267948966 ! translate offset=[[0,0,2],[0,0,-2.6]]",
+         "sphere radius=0.3 center=0,0,-0.3", 1e-8},
+        {"cylinder radius=0.5 height=1 ! rotate axis=0,0,1 center=1e-8,0,0 rate=30 ! translate "
+         "offset=[[2,0.1,0],[-2,0,0]]",
+         "sphere radius=0.3", 1e-3},
+        {"cylinder radius=0.5 height=1 ! rotate axis=1e-8,0,1 rate=30 ! translate "
+         "offset=[[2,0.1,0],[-2,0,0]]",
+         "sphere radius=0.3", 1e-2},
+        {"spokes ! rotate axis=0,0,1 rate=5 ! translate offset=[[3,-0.1,0.1],[-3,0,0]]",
+         "sphere radius=0.3", 1e-6}};
+    for (size_t k = 0; k < sizeof row / sizeof *row; ++k) {
+        const imp_result r = touch(row[k].a, row[k].b, row[k].gamma);
+        ck_assert_int_eq(r.verdict, IMP_VERDICT_CONTACT);
+        ck_assert_double_le(query_distance(r.a.point, r.b.point), r.gap * (1 + 1e-9));
     }
 }
 END_TEST
@@ -320,6 +423,7 @@ int main(void)
                                   what_turns_within_itself_is_as_far_as_it_would_be_at_rest,
                                   each_point_of_a_surface_held_is_one_of_the_surface,
                                   what_turns_beside_its_line_is_not_held,
+                                  points_of_surfaces_held_are_found_wherever_they_are,
                                   a_query_that_holds_maps_and_runs_out_of_memory_can_go_on};
     return suite_main_with("held", tests, sizeof tests / sizeof tests[0], open_registry,
                            close_registry);
