@@ -371,7 +371,7 @@ CLEANFILES += core/libtunable.a core/tunable.o tools/impinge-tunable
 tools_impinge_tunable_SOURCES = tools/cli/main.c tools/bench/tune.c
 tools_impinge_tunable_CPPFLAGS = $(AM_CPPFLAGS) -DIMP_TUNABLE
 tools_impinge_tunable_LDADD = core/tunable.o tools/libtools.a tools/libproof.la core/libcommon.la \
-    $(JANSSON_LIBS) $(LIBPNG_LIBS) -lm
+    $(JANSSON_LIBS) $(ZLIB_LIBS) $(LIBPNG_LIBS) -lm
 
 # batch and solve --each for clusters, where there is MPI.
 if HAVE_MPI
