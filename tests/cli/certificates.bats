@@ -403,7 +403,9 @@ surface subdivision: holds assuming subdivision' ]
     local turn='rotate axis=0,0,1 rate=3' line='revolution profile=[[1,-0.1],[0.5,0.4]]'
     "$IMPINGE" pair cone "cone center=0,0,-0.1 ! $turn" --gamma 1e-2 --proof cones
     "$IMPINGE" pair 'revolution profile=[[1,0],[0.5,0.5]]' "$line ! $turn" --gamma 1e-2 --proof turned
-    for pair in cones turned; do
+    "$IMPINGE" pair 'revolution profile=[[1,0],[0,1]] ! rotate axis=0,0,1 rate=-7' \
+        'revolution profile=[[0.9,0],[0,0.9]] ! rotate axis=0,0,1 rate=20' --gamma 1e-2 --proof both
+    for pair in cones turned both; do
         run -0 verify "$pair"
         [[ $output =~ ([0-9]+)" tests" ]]
         [ "${BASH_REMATCH[1]}" -lt 400 ]

@@ -332,24 +332,78 @@ static bool take_form(const place *p, double lo, double hi, const double c[3], l
     return is_one;
 }
 
-void motion_form_changes(const place *p, double lo, double hi, const double c[3],
-                         ld_interval e[3][3], const double w[3], form_changes *to)
+/* The elements of a form over some times, as motion_form_changes takes them. */
+typedef struct form_course {
+    const place *p;
+    double lo, hi;
+    const double *c, *w;
+    ld_interval (*e)[3];
+    form_elements before; /* at the middle */
+} form_course;
+
+static bool take_course(form_course *f, double lo, double hi, form_elements g)
 {
-    const double at = middle(lo, hi);
-    form_elements before, now;
-    double from = lo;
-    *to = (form_changes){.are_known = p->maps == 0 || take_form(p, at, at, c, e, w, before)};
-    for (int n = 0; n < CHANGE_PARTS && to->are_known && p->maps > 0; ++n) {
-        const double share = (n + 1.0) / CHANGE_PARTS;
-        const double end = n + 1 < CHANGE_PARTS ? proof_smaller(lo + (hi - lo) * share, hi) : hi;
-        to->are_known = take_form(p, from, end, c, e, w, now);
-        for (int i = 0; i < 5 && to->are_known; ++i)
+    return take_form(f->p, lo, hi, f->c, f->e, f->w, g);
+}
+
+/* Bounds the changes, each part being enclosed in `finer` shorter ones. */
+static bool find_changes(form_course *f, int finer, form_changes *to)
+{
+    const int count = CHANGE_PARTS * finer;
+    form_elements now;
+    double from = f->lo;
+    *to = (form_changes){.are_known = true};
+    for (int n = 0; n < count; ++n) {
+        const double share = (n + 1.0) / count;
+        const double end =
+            n + 1 < count ? proof_smaller(f->lo + (f->hi - f->lo) * share, f->hi) : f->hi;
+        if (!take_course(f, from, end, now)) return false;
+        for (int i = 0; i < 5; ++i)
             for (int k = 0; k < 4; ++k) {
-                double *change = i < 4 ? &to->most[n][i][k] : &to->lift[n][k];
-                *change = ld_interval_mag(ld_interval_sub(now[i][k], before[i][k]));
+                double *most = i < 4 ? &to->most[n / finer][i][k] : &to->lift[n / finer][k];
+                const ld_interval by = ld_interval_sub(now[i][k], f->before[i][k]);
+                const double change = ld_interval_mag(by);
+                if (!(change <= *most)) *most = change;
             }
         from = end;
     }
+    return true;
+}
+
+/* Shorter parts, and the least change, by the greatest element, for which they are taken. */
+enum { FINER = 4 };
+#define CHANGE_LEAST 0x1p-12
+#define CHANGE_SEEN 8
+
+/* Whether a form seems to change much more than it does at both ends, as where a surface turns
+ * about its own axis: what is enclosed then is of third order in the length of a part. */
+static bool needs_finer(form_course *f, const form_changes *found)
+{
+    double most = 0, seen = 0, size = 0;
+    form_elements end[2];
+    for (int n = 0; n < CHANGE_PARTS; ++n)
+        for (int i = 0; i < 9; ++i) most = proof_larger(most, found->most[n][i / 3][i % 3]);
+    for (int i = 0; i < 9; ++i) size = proof_larger(size, ld_interval_mag(f->before[i / 3][i % 3]));
+    if (!(most > CHANGE_LEAST * size)) return false;
+    if (!take_course(f, f->lo, f->lo, end[0]) || !take_course(f, f->hi, f->hi, end[1]))
+        return false;
+    for (int i = 0; i < 18; ++i) {
+        const ld_interval *at = &end[i / 9][i % 9 / 3][i % 3];
+        const ld_interval by = ld_interval_sub(*at, f->before[i % 9 / 3][i % 3]);
+        seen = proof_larger(seen, ld_interval_mag(by));
+    }
+    return most > CHANGE_SEEN * seen;
+}
+
+void motion_form_changes(const place *p, double lo, double hi, const double c[3],
+                         ld_interval e[3][3], const double w[3], form_changes *to)
+{
+    form_course f = {.p = p, .lo = lo, .hi = hi, .c = c, .w = w, .e = e};
+    const double at = middle(lo, hi);
+    *to = (form_changes){.are_known = p->maps == 0};
+    if (p->maps == 0 || !take_course(&f, at, at, f.before)) return;
+    to->are_known = find_changes(&f, 1, to);
+    if (to->are_known && needs_finer(&f, to)) to->are_known = find_changes(&f, FINER, to);
 }
 
 /* Lemma. x^T E x = h^T N^T E N h for h = (p, 1), which changes by no more than the sum of the
