@@ -265,7 +265,7 @@ static const imp_map_type motion_formula = {
                 "- k (k.w)) + sin A (k x w) + offset(t); texts in the language of the surface type "
                 "formula",
     .source = NULL,
-    .example = "motion-formula offset=[\"0\",\"0\",\"r*cos(9*t)\"] angle=sin(t) "
+    .example = "motion-formula offset=[\"r*cos(3*t)\",\"r*sin(3*t)\",\"0\"] angle=sin(t) "
                "constants={\"r\":0.4}",
 };
 

@@ -243,7 +243,9 @@ static bool find_changes(memory *known, const place *of, const box3 *where, cons
     return *slip < INFINITY && *lift < INFINITY;
 }
 
-/* Lemma. |s - r| is |s^2 - r^2| / (s + r), and at most the root of |s^2 - r^2|. */
+/* Lemma. |s - r| is |s^2 - r^2| / (s + r), and at most the root of |s^2 - r^2|. With |s^2 - r^2| <=
+ * by it is at most by / (s + root of max(s^2 - by, 0)), which falls as s grows: so the least s of a
+ * box stands for all of it. */
 double centre_change_upper(memory *known, const place *of, const box3 *where, const aim *a,
                            double least)
 {
@@ -287,6 +289,7 @@ bool centre_aims(memory *known, const centre *about, const place of[2], const bo
     }
     double n[2] = {middle[1].at[0] > middle[0].at[0] ? 1 : -1, 0};
     if (about->is_line) meridian_choose(middle, apart, n);
+    if (n[1] == 0) n[0] = n[0] < 0 ? -1 : 1; /* centre_distance takes its sign alone then */
     for (int side = 0; side < 2; ++side) {
         const double sign = side == 0 ? 1 : -1;
         a[side] = (aim){.n = {sign * n[0], sign * n[1], 0}, .about = about};
