@@ -277,8 +277,8 @@ plugins_libsubdivision_la_SOURCES = \
     plugins/subdivision/quarter_spline.c \
     plugins/subdivision/walk.c plugins/subdivision/walk.h
 plugins_libsubdivision_la_LDFLAGS =
-plugins_subdivision_la_LIBADD = plugins/libsubdivision.la plugins/libpatch.la plugins/libmesh.la \
-    plugins/libcommon.la
+plugins_subdivision_la_LIBADD = plugins/libsubdivision.la plugins/libpatch.la plugins/libmesh.la
+plugins_subdivision_la_LIBADD += plugins/libcommon.la
 
 # The language of formulas, for the types that take formulas as text.
 noinst_LTLIBRARIES += plugins/libexpression.la
