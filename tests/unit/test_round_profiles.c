@@ -131,7 +131,7 @@ static judgement judge_curves(double kept, size_t kinds[ROUND_CIRCLE + 1])
 {
     judgement all = {0};
     uint64_t random = suite_seed();
-    for (int k = 0; k < suite_times(PROFILES); ++k) {
+    for (int k = 0; k < suite_times_at_least(PROFILES); ++k) {
         const curve c = draw_curve(&random);
         round_profile p = round_profile_of(c.points, c.weights, c.count);
         kinds[p.kind] += 1;
