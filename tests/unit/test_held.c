@@ -115,7 +115,7 @@ static const char *const others[] = {"box size=1,0.8,0.6",
 
 static double part(uint64_t *random) { return random_between(random, -1, 1); }
 
-static void add(char *text, const char *format, ...)
+__attribute__((format(printf, 2, 3))) static void add(char *text, const char *format, ...)
 {
     va_list of;
     va_start(of, format);
