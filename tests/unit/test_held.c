@@ -341,8 +341,8 @@ START_TEST(what_turns_beside_its_line_is_not_held)
 }
 END_TEST
 
-/* Far from the origin, through it, and where the first maps leave the line where it is by less than
- * what a search allows: the points are as near as the gap that is told. */
+/* The reported points are within the reported gap far from the origin, at the origin, and where the
+ * first maps shift the line by less than the slip that a search permits. */
 START_TEST(points_of_surfaces_held_are_found_wherever_they_are)
 {
     static const struct {
