@@ -4,6 +4,8 @@
 
 #include "core/witness/contact_paraboloid.h"
 
+#include <impinge/interval.h>
+
 /* The paraboloid's curvature beyond that of a face, in parts of what the other side leaves, or of
  * the face's own where a corner touches it; and beyond that of an edge, in parts of both edges'
  * own. Half of the former costs `bench bicubic` 2 per cent of its pairs, twice as much 5. */
@@ -116,8 +118,6 @@ static double room_beyond(const contact_side *s, const form *q)
            1 / (vec3_norm(part_of(s, NET_U)) + vec3_norm(part_of(s, NET_V)));
 }
 
-static double least(double x, double y) { return x < y ? x : y; }
-
 /* Half way between both, but little beyond the flatter: terms of third order grow with the
  * curvature. */
 static form between_faces(const contact_side sides[2], vec3 n, const vec3 e[2])
@@ -128,7 +128,8 @@ static form between_faces(const contact_side sides[2], vec3 n, const vec3 e[2])
     const form *from = flatter == 0 ? &a : &b;
     const double most = room_beyond(&sides[flatter], from), sign = flatter == 0 ? 1 : -1;
     const turned t = axes_of(&gap);
-    const double x = sign * least(0.5 * t.first, most), y = sign * least(0.5 * t.second, most);
+    const double x = sign * imp_smaller(0.5 * t.first, most),
+                 y = sign * imp_smaller(0.5 * t.second, most);
     return (form){from->xx + x * t.c * t.c + y * t.s * t.s, from->xy + (x - y) * t.c * t.s,
                   from->yy + x * t.s * t.s + y * t.c * t.c};
 }
@@ -142,8 +143,8 @@ static form beside_face(const contact_side sides[2], int side, vec3 n, const vec
     double more = BEYOND_FACE * (fabs(q.xx) + fabs(q.yy));
     if (place_of(other) == EDGE) {
         const edge t = edge_of(other, n, e);
-        more = least(BEYOND_FACE * sign * (t.bend - form_along(&q, &t)),
-                     room_beyond(&sides[side], &q));
+        more = imp_smaller(BEYOND_FACE * sign * (t.bend - form_along(&q, &t)),
+                           room_beyond(&sides[side], &q));
     }
     q.xx += sign * more;
     q.yy += sign * more;
