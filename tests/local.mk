@@ -595,6 +595,7 @@ noinst_HEADERS += \
     tests/plugins/liar.h \
     tests/plugins/tiny.h \
     tests/support/alloc_failure.h \
+    tests/support/array_scene.h \
     tests/support/ball_queries.h \
     tests/support/box_stacks.h \
     tests/support/built_plugins.h \
@@ -627,7 +628,6 @@ noinst_HEADERS += \
     tests/support/suite.h \
     tests/support/survey_helpers.h \
     tests/support/survey_scenes.h \
-    tests/support/temporary_file.h \
     tests/support/told_boxes.h
 noinst_HEADERS += \
     tests/plugins/coil.h \

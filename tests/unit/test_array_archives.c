@@ -4,7 +4,7 @@
 
 #include <stdio.h>
 
-#include "tests/support/temporary_file.h"
+#include "tests/support/array_scene.h"
 
 /* Arrays of numbers from archives, as numpy.savez and numpy.savez_compressed write them:
  * {"file": "nets.npz", "array": "points"}. */
@@ -128,19 +128,9 @@ static void write_file(const archive *a)
  * touched. */
 static bool touches(const char *points, double *t)
 {
-    char text[700];
-    snprintf(text, sizeof text,
-             "{\"bodies\":[{\"surfaces\":[{\"type\":\"triangle\",\"points\":%s}]},{\"surfaces\":[{"
-             "\"type\":\"sphere\",\"radius\":0.5,\"center\":[3,0.1,0]}],\"maps\":[{\"type\":"
-             "\"translate\",\"velocity\":[-4,0,0]}]}]}",
-             points);
-    imp_scene *scene = imp_scene_from_json(registry, text, strlen(text), "scene", &error);
+    imp_scene *scene = array_scene_read(points);
     if (scene == NULL) return false;
-    imp_result result = {.struct_size = sizeof result};
-    const imp_options options = imp_options_default(scene);
-    ck_assert_int_eq(imp_scene_solve(scene, &options, &result, &error), IMP_SUCCESS);
-    imp_scene_free(scene);
-    *t = result.t;
+    *t = array_scene_solve(scene).t;
     return true;
 }
 
@@ -341,6 +331,6 @@ int main(void)
                                   a_damaged_archive_is_refused_or_read_as_it_was,
                                   limits_on_reading_count_arrays_of_archives,
                                   a_certificate_has_the_hash_of_the_file_that_was_read};
-    return suite_main_with("array_archives", tests, sizeof tests / sizeof *tests,
-                           temporary_file_begin, temporary_file_end);
+    return suite_main_with("array_archives", tests, sizeof tests / sizeof *tests, array_scene_begin,
+                           array_scene_end);
 }

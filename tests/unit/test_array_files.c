@@ -6,7 +6,7 @@
 #include <sys/stat.h>
 #include <unistd.h>
 
-#include "tests/support/temporary_file.h"
+#include "tests/support/array_scene.h"
 
 /* Arrays of numbers from files of NumPy's format: {"file": "points.npy"}. */
 
@@ -68,32 +68,11 @@ static void write_file(const form *f, const double *numbers)
 
 /* --- Reading ---------------------------------------------------------------------------------- */
 
-static imp_scene *read_scene(const char *points)
-{
-    char text[700];
-    snprintf(text, sizeof text,
-             "{\"bodies\":[{\"surfaces\":[{\"type\":\"triangle\",\"points\":%s}]},{\"surfaces\":[{"
-             "\"type\":\"sphere\",\"radius\":0.5,\"center\":[3,0.1,0]}],\"maps\":[{\"type\":"
-             "\"translate\",\"velocity\":[-4,0,0]}]}]}",
-             points);
-    return imp_scene_from_json(registry, text, strlen(text), "scene", &error);
-}
-
 static imp_scene *read_file(void)
 {
     char object[100];
     snprintf(object, sizeof object, "{\"file\":\"%s\"}", path);
-    return read_scene(object);
-}
-
-static imp_result solve(imp_scene *scene)
-{
-    ck_assert_msg(scene != NULL, "%s", error.text);
-    imp_result result = {.struct_size = sizeof result};
-    const imp_options options = imp_options_default(scene);
-    ck_assert_int_eq(imp_scene_solve(scene, &options, &result, &error), IMP_SUCCESS);
-    imp_scene_free(scene);
-    return result;
+    return array_scene_read(object);
 }
 
 /* --- Tests ------------------------------------------------------------------------------------ */
@@ -106,11 +85,11 @@ START_TEST(arrays_of_each_form_are_those_of_the_text)
         {.version = 2},        {.version = 3},   {.is_columns_first = 1}, {.shape = "( 3,3 )"},
         {.shape = "(3L, 3L)"},
     };
-    const imp_result expected = solve(read_scene("[[0,-1,-1],[0,1,-1],[0,0,2]]"));
+    const imp_result expected = array_scene_solve(array_scene_read("[[0,-1,-1],[0,1,-1],[0,0,2]]"));
     ck_assert_int_eq(expected.verdict, IMP_VERDICT_CONTACT);
     for (size_t k = 0; k < sizeof all / sizeof *all; ++k) {
         write_file(&all[k], corners);
-        const imp_result found = solve(read_file());
+        const imp_result found = array_scene_solve(read_file());
         ck_assert_msg(found.t == expected.t && found.b.u == expected.b.u &&
                           found.a.v == expected.a.v && found.stats.pairs == expected.stats.pairs,
                       "form %zu", k);
@@ -191,9 +170,9 @@ END_TEST
 
 START_TEST(an_object_that_names_no_file_is_refused)
 {
-    ck_assert_ptr_null(read_scene("{\"file\":\"x.npy\", \"type\": \"f8\"}"));
+    ck_assert_ptr_null(array_scene_read("{\"file\":\"x.npy\", \"type\": \"f8\"}"));
     ck_assert_msg(strstr(error.text, "or {\"file\": NAME}") != NULL, "%s", error.text);
-    ck_assert_ptr_null(read_scene("{\"file\":\"/none/such.npy\"}"));
+    ck_assert_ptr_null(array_scene_read("{\"file\":\"/none/such.npy\"}"));
     ck_assert_msg(strstr(error.text, "/none/such.npy: No such file") != NULL, "%s", error.text);
     unlink(path);
     ck_assert_int_eq(mkfifo(path, 0600), 0); /* nobody writes to it */
@@ -210,6 +189,6 @@ int main(void)
                                   files_that_end_early_are_refused_wherever_they_end,
                                   numbers_that_a_text_could_not_state_are_refused_with_their_place,
                                   an_object_that_names_no_file_is_refused};
-    return suite_main_with("array_files", tests, sizeof tests / sizeof *tests, temporary_file_begin,
-                           temporary_file_end);
+    return suite_main_with("array_files", tests, sizeof tests / sizeof *tests, array_scene_begin,
+                           array_scene_end);
 }
