@@ -118,10 +118,28 @@ static const char *shape_text(const npy *f, char text[100])
     return text;
 }
 
+/* Writes how to make rows of an array of more dimensions, or nothing where that cannot be. */
+static const char *reshape_text(const npy *f, char text[100])
+{
+    const imp_parameter *row = f->row;
+    if (f->head.rank <= row->rank) return "";
+    const uint32_t more = f->head.rank - row->rank;
+    size_t rows = 1;
+    for (uint32_t k = 0; k <= more; ++k) rows *= f->head.extent[k];
+    bool is_known = row->extent[0] == 0 || row->extent[0] == rows;
+    size_t used = (size_t)snprintf(text, 100, "; write it by numpy.save(FILE, A.reshape(-1");
+    for (uint32_t k = 1; k < row->rank; ++k) {
+        is_known = is_known && row->extent[k] > 0 && f->head.extent[k + more] == row->extent[k];
+        used += (size_t)snprintf(text + used, 100 - used, ", %u", row->extent[k]);
+    }
+    snprintf(text + used, 100 - used, "))");
+    return is_known ? text : "";
+}
+
 static imp_code check_shape(npy *f, uint64_t numbers)
 {
     const imp_parameter *row = f->row;
-    char text[100];
+    char text[100], cure[100];
     bool fits = f->head.rank == row->rank;
     f->count = 1;
     if (f->head.rank > IMP_RANK_MAX)
@@ -132,15 +150,18 @@ static imp_code check_shape(npy *f, uint64_t numbers)
                (row->extent[k] == 0 || row->extent[k] == f->head.extent[k]) &&
                !__builtin_mul_overflow(f->count, f->head.extent[k], &f->count);
     if (!fits)
-        return fail(f, f->at, "its shape is %s, must be that of %s", shape_text(f, text),
-                    parameter_shape_words(row, 0).at);
+        return fail(f, f->at, "its shape is %s, must be that of %s%s", shape_text(f, text),
+                    parameter_shape_words(row, 0).at, reshape_text(f, cure));
     const uint64_t there = f->size > numbers ? f->size - numbers : 0;
-    if (f->count > UINT64_MAX / f->head.width || f->count > SIZE_MAX / sizeof(double) ||
-        f->count * f->head.width != there)
+    uint64_t bytes;
+    if (__builtin_mul_overflow(f->count, f->head.width, &bytes)) bytes = UINT64_MAX;
+    if (f->count > SIZE_MAX / sizeof(double) || bytes != there)
         return fail(f, f->at,
                     "a shape of %s takes %zu numbers of %zu bytes, but the file has %llu bytes of "
-                    "them; write it again",
-                    shape_text(f, text), f->count, f->head.width, (unsigned long long)there);
+                    "them, %llu too %s; write it again",
+                    shape_text(f, text), f->count, f->head.width, (unsigned long long)there,
+                    (unsigned long long)(there < bytes ? bytes - there : there - bytes),
+                    there < bytes ? "few" : "many");
     return IMP_SUCCESS;
 }
 
@@ -274,12 +295,10 @@ static imp_code read_either(npy *f, const array_file_limit *limit, imp_value *va
     unsigned char front[4] = {0};
     const bool is_archive = fread(front, 1, 4, f->file) == 4 && zip_begins_so(front);
     rewind(f->file);
-    if (is_archive && f->array != NULL) return read_member(f, limit, value);
-    if (!is_archive && f->array == NULL) return read_array(f, limit, value);
+    if (is_archive) return read_member(f, limit, value);
+    if (f->array == NULL) return read_array(f, limit, value);
     f->array = NULL;
-    return fail(f, f->at,
-                is_archive ? "it is an archive (.npz); add \"array\": NAME of one of its arrays"
-                           : "it is no archive (.npz); leave out \"array\"");
+    return fail(f, f->at, "it is no archive (.npz); leave out \"array\"");
 }
 
 imp_code array_file_read(const imp_parameter *row, const char *path, const char *array,

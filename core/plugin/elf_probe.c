@@ -64,7 +64,9 @@ bool elf_identity_is_at(elf_identity file, const char *path)
 static bool check_file(elf_file *file, elf_probe *probe, elf_check *check)
 {
     struct stat facts;
-    if (file->fd < 0) return answer(check, false, "cannot be opened: %s", system_error_text(errno));
+    if (file->fd < 0)
+        return answer(check, false, "cannot be opened: %s%s", system_error_text(errno),
+                      errno == ENOENT ? "; `impinge info TYPE` names the file of a type" : "");
     if (fstat(file->fd, &facts) != 0)
         return answer(check, false, "cannot be examined: %s", system_error_text(errno));
     if (!S_ISREG(facts.st_mode))
@@ -128,6 +130,17 @@ static bool check_kind(elf_file *file, elf_probe *probe, elf_check *check)
     return answer(check, false, "is %s; link it with -shared", name);
 }
 
+/* A position-independent program is of the kind of shared objects, but has an interpreter. */
+static bool names_interpreter(elf_file *file)
+{
+    Elf64_Phdr part;
+    for (Elf64_Half k = 0; k < file->header.e_phnum; ++k)
+        if (elf_file_read(file, file->header.e_phoff + k * sizeof part, &part, sizeof part) &&
+            part.p_type == PT_INTERP)
+            return true;
+    return false;
+}
+
 static bool check_headers(elf_file *file, elf_probe *probe, elf_check *check)
 {
     (void)probe;
@@ -140,6 +153,8 @@ static bool check_headers(elf_file *file, elf_probe *probe, elf_check *check)
         return answer(check, false, "its program headers lie beyond its end; " CUT_SHORT);
     if (!elf_file_has(file, h->e_shoff, (uint64_t)h->e_shnum * h->e_shentsize))
         return answer(check, false, "its section headers lie beyond its end; " CUT_SHORT);
+    if (names_interpreter(file))
+        return answer(check, false, "is a program, with an interpreter; link it with -shared");
     return answer(check, true, "%u program headers", h->e_phnum);
 }
 

@@ -120,7 +120,7 @@ static void list_name(zip_fault *list, const entry *e)
         text_append(list->text, sizeof list->text, "%s", quoted);
 }
 
-/* Finds the only entry of that name. */
+/* Finds the only entry of that name; with NULL, refuses by the names there are. */
 static imp_code find_entry(directory *d, const char *name, entry *found)
 {
     zip_fault list = {""};
@@ -130,14 +130,17 @@ static imp_code find_entry(directory *d, const char *name, entry *found)
         const imp_code code = read_entry(d, &e);
         if (code != IMP_SUCCESS) return code;
         list_name(&list, &e);
-        if (!has_name(&e, name)) continue;
+        if (name == NULL || !has_name(&e, name)) continue;
         *found = e;
         if (++count > 1) return refuse(d->fault, "it has two arrays of that name");
     }
     if (count == 1) return IMP_SUCCESS;
-    refuse(d->fault, "it has no such array");
+    refuse(d->fault, name != NULL ? "it has no such array"
+                                  : "it is an archive (.npz); add \"array\": NAME of one of its "
+                                    "arrays");
     if (list.text[0] != '\0')
-        text_append(d->fault->text, sizeof d->fault->text, ", but %s", list.text);
+        text_append(d->fault->text, sizeof d->fault->text, "%s %s", name != NULL ? ", but" : ":",
+                    list.text);
     return IMP_ERROR_SCENE;
 }
 

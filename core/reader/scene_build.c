@@ -34,6 +34,12 @@ static imp_code refuse_type(const imp_registry *registry, imp_type_kind kind, co
     if (registry_find_file(registry, other, name) != NULL)
         return place_error(at, error, IMP_ERROR_SCENE, "got the %s '%s', must be a %s; %s",
                            kind_word(other), name, kind_word(kind), verb);
+    const size_t length = strlen(name);
+    if (length > 3 && strcmp(name + length - 3, ".so") == 0)
+        return place_error(at, error, IMP_ERROR_SCENE,
+                           "'%.80s' is a file, must be the name of a %s; give the directory of the "
+                           "file by --plugin-path and take a name from `impinge list`",
+                           name, kind_word(kind));
     const char *near = registry_nearest(registry, kind, name);
     const registry_text left_out = registry_left_out(registry, name);
     if (near != NULL)

@@ -9,6 +9,10 @@
 #include <stdlib.h>
 #include <string.h>
 
+/* Part of the greatest turn that rounding may have the wrong sign of; and part of the greatest
+ * coordinate by which the last point of a closed curve may miss the first. */
+#define NEARLY 0x1p-40
+
 /* --- What is given ---------------------------------------------------------------------------- */
 
 static imp_status read_degree(const imp_value *values, outline *o, imp_create_error *why)
@@ -47,12 +51,30 @@ static imp_status read_knots(const imp_value *values, outline *o, imp_create_err
     return knots_check(&o->row, o->degree, why);
 }
 
+/* Lemma. |p - q| <= NEARLY * size, so the curve, a mean of its points, moves by no more. Users who
+ * compute the last point, as by the cosine of 2 pi, mean the first. */
+static imp_status join_profile(outline *o)
+{
+    const size_t last = 2 * (o->count - 1);
+    double size = 0, apart = 0;
+    for (size_t k = 0; k < 2 * o->count; ++k) size = fmax(size, fabs(o->profile[k]));
+    for (size_t i = 0; i < 2; ++i) apart = fmax(apart, fabs(o->profile[last + i] - o->profile[i]));
+    if (apart == 0 || apart > NEARLY * size) return IMP_STATUS_OK;
+    o->joined = malloc(2 * o->count * sizeof *o->joined);
+    if (o->joined == NULL) return IMP_STATUS_INTERNAL;
+    memcpy(o->joined, o->profile, 2 * o->count * sizeof *o->joined);
+    memcpy(o->joined + last, o->profile, 2 * sizeof *o->joined);
+    o->profile = o->joined;
+    return IMP_STATUS_OK;
+}
+
 imp_status outline_read(const imp_value *values, outline *o, imp_create_error *why)
 {
     *o = (outline){.count = values[OUTLINE_PROFILE].extent[0],
                    .profile = values[OUTLINE_PROFILE].number};
     imp_status status = read_degree(values, o, why);
     if (status == IMP_STATUS_OK) status = read_knots(values, o, why);
+    if (status == IMP_STATUS_OK && values[OUTLINE_ENDS].number[0] != 0) status = join_profile(o);
     if (status != IMP_STATUS_OK) return status;
     if (values[OUTLINE_VECTOR].number[2] == 0)
         return imp_reject(why, OUTLINE_VECTOR, 2, "is 0, must lead out of the plane of the curve");
@@ -115,8 +137,6 @@ static void turn_of(const arc *a, double *least, double *greatest)
     }
 }
 
-#define NEARLY 0x1p-40 /* part of the greatest turn that rounding may have the wrong sign of */
-
 /* The curve returns to where it begins, and is seen from the center without overlap: then the ends
  * are the areas in it. The coefficients tell so; where they do not, the curve may still be seen. */
 static imp_status check_ends(const outline *o, const knots *k, imp_create_error *why)
@@ -130,7 +150,8 @@ static imp_status check_ends(const outline *o, const knots *k, imp_create_error 
                           "must be there degree + 1 times at either end, with ends");
     if (first[0] != last[0] || first[1] != last[1])
         return imp_reject(why, OUTLINE_PROFILE, -1,
-                          "ends at [%g,%g], must end at its first point, [%g,%g], with ends",
+                          "ends at [%.15g,%.15g], must end at its first point, [%.15g,%.15g], "
+                          "with ends",
                           last[0], last[1], first[0], first[1]);
     for (size_t span = 0; span < k->spans; ++span) {
         arc a;
@@ -164,5 +185,6 @@ imp_status outline_close(const imp_value *values, const knots *k, outline *o, im
 void outline_clear(outline *o)
 {
     free(o->knots);
-    o->knots = NULL;
+    free(o->joined);
+    o->knots = o->joined = NULL;
 }

@@ -26,7 +26,7 @@ typedef struct outline {
     int degree;
     const double *profile, *weights; /* weights: NULL where all are 1 */
     double center[2];                /* outline_close sets it */
-    double *knots;
+    double *knots, *joined;          /* joined: the profile if its last point was moved, or NULL */
     knot_row row;
 } outline;
 
@@ -38,7 +38,7 @@ imp_status outline_read(const imp_value *values, outline *o, imp_create_error *w
 imp_status outline_close(const imp_value *values, const knots *k, outline *o,
                          imp_create_error *why);
 
-/* Frees the knots. */
+/* Frees what the outline owns. */
 void outline_clear(outline *o);
 
 #endif

@@ -20,6 +20,6 @@
                      "one per point: it moves as point + t*velocity; left out: at rest")
 
 #define ROW_PATCH_WEIGHTS(NAME, DOC)                                                               \
-    IMP_ROW(NAME, "1", NULL, IMP_PARAMETER_OPTIONAL, 1, 0, 0, 1 / PATCH_HEAVY, PATCH_HEAVY, DOC)
+    IMP_ROW(NAME, "1", NULL, IMP_PARAMETER_OPTIONAL, 1, 0, 0, PATCH_LIGHT, PATCH_HEAVY, DOC)
 
 #endif

@@ -33,9 +33,10 @@ enum {
 };
 
 /* Limits that keep every number below finite: |P|, |V| <= PATCH_FAR, |t| <= PATCH_LATE, and weights
- * from 1 / PATCH_HEAVY to PATCH_HEAVY. */
+ * from PATCH_LIGHT to PATCH_HEAVY. */
 #define PATCH_FAR 1e100
 #define PATCH_LATE 1e50
+#define PATCH_LIGHT 1e-50
 #define PATCH_HEAVY 1e50
 #define ROUNDING 0x1p-53 /* relative error of one operation */
 

@@ -130,6 +130,18 @@ rotate axis=1,2,3 angle=[0.7]" --gamma 1e-4 --json
     json '.verdict == "clear" and .stats.pairs < 50'
 }
 
+@test "an extrusion whose last point misses the first by rounding is closed" {
+    bar='{"bodies": [{"name": "bar", "solid": true, "surfaces": [{"type": "extrusion", "degree": DEGREE,
+        "profile": [[1,0.1],[0.3,1.7],[-1.1,1],[-1,-1],[1,-1],[1,LAST]], "ends": true}]}]}'
+    for degree in 1 2; do
+        sed "s/LAST/0.10000000000000002/; s/DEGREE/$degree/" <<<"$bar" >bar.json
+        run -0 "$IMPINGE" info bar.json
+        [[ $output == *' solid, closed'* ]]
+        sed "s/LAST/0.1000001/; s/DEGREE/$degree/" <<<"$bar" >open.json
+        fails 4 'ends at [1,0.1000001], must end at its first point, [1,0.1]' "$IMPINGE" info open.json
+    done
+}
+
 @test "who is inside a solid body at the start is in contact, for each verb" {
     scene='{"bodies": [{"name": "pot", "solid": true, "surfaces": [{"type": "box", "size": [4,4,4]}]},
         {"name": "pea", "surfaces": [{"type": "sphere", "radius": 0.1, "center": [1,0,0]}]}]}'

@@ -181,4 +181,5 @@ load ../support/cli_helper
 @test "info of an unknown type names the nearest" {
     fails 4 "info: unknown type 'torsu', did you mean 'torus'?" "$IMPINGE" info torsu
     fails 4 'impinge list' "$IMPINGE" info zzzzzzzz
+    fails 4 --plugin-path "$IMPINGE" info ./wobble.so
 }

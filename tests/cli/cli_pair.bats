@@ -197,6 +197,12 @@ load ../support/cli_helper
         "$IMPINGE" pair spere sphere
 }
 
+@test "a plugin file in place of a type is answered with how to load it" {
+    fails 4 "pair: a: './wobble.so' is a file, must be the name of a surface type" \
+        "$IMPINGE" pair ./wobble.so sphere
+    [[ $stderr == *--plugin-path* ]]
+}
+
 @test "an unknown map is answered with the nearest" {
     fails 4 "unknown map 'rotat', did you mean 'rotate'?" \
         "$IMPINGE" pair sphere 'sphere ! rotat axis=1,0,0'

@@ -98,12 +98,14 @@ patched() {
     ln -s loop.so loop.so
     ln -s /nonexistent gone.so
     ln -s /dev/zero zero.so
+    cp "$(command -v bash)" program.so
     cd ..
     patched 4 '\001' class.so
     patched 18 '\010' machine.so
     run -0 timeout 60 "$IMPINGE" list --plugin-path "$PWD/plugins" --json
     valid types
-    json '.refused | length == 9'
+    json '.refused | length == 10'
+    left_out program.so 'is a program'
     left_out directory.so 'file: '
     left_out empty.so 'format: is not an ELF file'
     left_out text.so 'format: is not an ELF file'

@@ -224,7 +224,8 @@ START_TEST(names_are_asked_for_where_there_are_some_and_else_not)
     write_file(&a);
     snprintf(object, sizeof object, "{\"file\":\"%s\"}", path);
     ck_assert(!touches(object, &t));
-    ck_assert_msg(strstr(error.text, "add \"array\": NAME") != NULL, "%s", error.text);
+    ck_assert_msg(strstr(error.text, "add \"array\": NAME of one of its arrays: 'points'") != NULL,
+                  "%s", error.text);
     archive plain = {.size = ARRAY_BYTES};
     write_array(plain.at);
     write_file(&plain);

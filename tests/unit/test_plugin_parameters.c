@@ -136,6 +136,7 @@ static const struct refusal {
     {"extrusion degree=2 knots=[0,0,0,1,1,1]", "knots", "6 points of degree 2 have 9"},
     {"extrusion degree=2 knots=[0,0,0,1,2,1,4,4,4]", "knots/5", "must not fall"},
     {"extrusion weights=[1,1]", "weights", "each of the 6 points"},
+    {"extrusion weights=[1,1,1,1,1,0]", "weights/5", "must be in [1e-50, 1e+50]"},
     {"extrusion profile=[[0,0],[1,0],[1,1]] ends=true", "profile", "must end at its first point"},
     {"extrusion degree=2 knots=[0,1,2,3,4,5,6,7,8] ends=true", "knots", "degree + 1 times"},
     {"extrusion center=5,0 ends=true", "center", "must be a point in it"},

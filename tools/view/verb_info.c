@@ -123,7 +123,9 @@ static exit_status unknown(const imp_registry *registry, const arguments *args)
         return complain(EXIT_DATA, args->verb->name,
                         "unknown type '%s', did you mean '%s'? `impinge list` shows all",
                         args->operands[0], near.best);
-    return complain(EXIT_DATA, args->verb->name, "unknown type '%s'; `impinge list` shows all",
+    return complain(EXIT_DATA, args->verb->name,
+                    "unknown type '%s'; `impinge list` shows all; give the directory of a plugin "
+                    "file by --plugin-path",
                     args->operands[0]);
 }
 
