@@ -167,7 +167,7 @@ START_TEST(costs_of_the_pairs_of_bodies_add_up)
 {
     imp_error error;
     imp_scene *scene = arms(-1, 1);
-    imp_survey *s = begin(scene, 0.02, NULL);
+    imp_survey *s = begin(scene, 0.05, NULL);
     const imp_result found = go_on(s);
     imp_survey_state state = {.struct_size = sizeof state};
     imp_survey_get_state(s, &state, &error);
