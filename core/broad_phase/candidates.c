@@ -167,7 +167,7 @@ static bool prepare(collection *all)
 
 double collection_slip_most(const imp_options *options, const candidate_search *search)
 {
-    if (options->baseline != IMP_BASELINE_NONE || !search->may_rest) return -1;
+    if (options->baseline != IMP_BASELINE_NONE) return -1;
     const double clear = tolerances_clear(options->gamma, options->gamma_clear);
     const double room = options->gamma - clear;
     const double most = (clear < room ? clear : room) / TUNING_REST_SLIP;
@@ -182,6 +182,7 @@ imp_code candidates_find(candidate_list *list, imp_scene *scene, const imp_optio
         options->baseline == IMP_BASELINE_NONE; /* the paper's algorithm has no frames */
     collection all = {.scene = scene,
                       .slip_most = collection_slip_most(options, search),
+                      .may_rest = search->may_rest,
                       .slip_useful = search->slip_useful,
                       .may_halve = search->may_halve,
                       .common_motion = models ? collection_common_motion(scene) : 0,

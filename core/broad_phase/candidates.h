@@ -49,8 +49,9 @@ typedef struct candidate_limit {
 typedef struct candidate_search {
     double gamma_clear;
     bool is_nearest; /* pairs may be left out that are farther than another pair at all times */
-    bool may_rest; /* pairs that turn within themselves may have trees of one moment: in a query of
-                      all times, not of slices */
+    /* Pairs that turn within themselves may have trees of one moment, and sections of threads only
+     * points that are near at one: in a query of all times, not of slices. */
+    bool may_rest;
     double slip_most; /* of the list, at most; length */
     /* Slips of surfaces along each other that are larger than this are of no use; length. */
     double slip_useful;

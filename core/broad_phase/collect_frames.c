@@ -55,7 +55,7 @@ static size_t motion_of(const candidate_pair *p)
  * one has a symmetry. */
 static bool may_turn_within(const collection *all, const candidate_pair *p)
 {
-    if (all->slip_most < 0) return false;
+    if (!all->may_rest || all->slip_most < 0) return false;
     const surface *const s[2] = {tree_surface(p->side[0]->tree), tree_surface(p->side[1]->tree)};
     bool moves = false, turns = false;
     for (int k = 0; k < 2; ++k) {

@@ -13,7 +13,8 @@
  *
  * Lemma. Points of the surface held are within its slip of points of the surface, and conversely,
  * at each time (surface_held_maps). So a distance of c, proved of the pair with one or both held,
- * is one of c less the sum of both slips, which the list's slip is not below. */
+ * is one of c less the sum of both slips, which the list's slip is not below. This holds at each
+ * time, and so in slices of time. */
 
 static bool is_held_apart(const collection *all, const surface *s)
 {

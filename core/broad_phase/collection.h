@@ -58,7 +58,8 @@ typedef struct collection {
     double gamma_clear;
     bool is_nearest;      /* of the candidate_search */
     size_t common_motion; /* number of last maps of all surfaces that all trees leave out */
-    double slip_most;     /* of pairs searched at one moment; < 0: none are; length */
+    double slip_most;     /* of the list; < 0: nothing that slips may replace a surface; length */
+    bool may_rest;        /* of the candidate_search */
     double slip_useful;   /* of the candidate_search */
     bool may_halve;       /* half planes are used; not without slip_most */
     swept_box *boxes, at_hand[BOXES_AT_HAND];
@@ -126,7 +127,7 @@ imp_code collection_add_solids(collection *all, bool *done, imp_error *error);
 size_t collection_common_motion(const imp_scene *scene);
 
 /* Returns the largest slip that is small against gamma_clear and against gamma - gamma_clear; < 0:
- * no pair is searched at one moment. */
+ * nothing that slips may replace a surface. */
 double collection_slip_most(const imp_options *options, const candidate_search *search);
 
 /* Gives the surfaces of each pair trees without the motion that both have in common. *done false: a

@@ -119,8 +119,6 @@ imp_code query_collect_part(imp_query *part, const imp_query *whole, size_t inde
     atomic_fetch_add(&whole->parts->bytes, shared.bytes);
     if (code == IMP_SUCCESS)
         code = candidates_part(&part->candidates, &framed, 0, count, &part->stats, error);
-    for (size_t k = 0; k < part->candidates.pair_count; ++k)
-        part->candidates.pairs[k].slips = framed.pairs[k].slips;
     candidates_clear(&framed);
     part->impact.gamma_clear = query_searched_gamma_clear(part, part->gamma_clear);
     part->impact.candidate_pairs = part->candidates.pairs;

@@ -263,6 +263,109 @@ START_TEST(what_turns_within_itself_is_as_far_as_it_would_be_at_rest)
 }
 END_TEST
 
+/* --- Slices of time --------------------------------------------------------------------------- */
+
+enum { SLICES = 4 };
+
+/* Returns the query that measures a and b in slices, ended. */
+static imp_query *sliced(imp_scene *scene, uint64_t slices)
+{
+    imp_error error = {IMP_SUCCESS, ""};
+    imp_options options = imp_options_default(scene);
+    options.gamma = 1e-7;
+    options.max_pairs = 20000 * slices;
+    imp_clearance_options asked = imp_clearance_options_default();
+    asked.slices = slices;
+    imp_query *query = imp_clearance_new(scene, &options, &asked, &error);
+    ck_assert_msg(query != NULL, "%s", error.text);
+    ck_assert_msg(imp_query_step(query, 0, &error) == IMP_SUCCESS, "%s", error.text);
+    return query;
+}
+
+static imp_clearance slice_of(const imp_scene *scene, const imp_query *query, size_t k)
+{
+    imp_clearance r = {.struct_size = (uint32_t)sizeof r};
+    ck_assert_int_eq(imp_clearance_get(query, k, &r, NULL), IMP_SUCCESS);
+    if (r.has_witness) {
+        ck_assert(r.t_start <= r.t && r.t <= r.t_end);
+        check_side(scene, &r.a, r.t);
+        check_side(scene, &r.b, r.t);
+        ck_assert_double_le(query_distance(r.a.point, r.b.point), r.upper * (1 + 1e-12));
+    }
+    return r;
+}
+
+START_TEST(what_turns_within_itself_is_in_each_slice_as_far_as_at_rest)
+{
+    uint64_t random = suite_seed();
+    int apart = 0, differ = 0;
+    for (int n = 0; n < suite_times_at_least(SCENES); ++n) {
+        const twins y = draw_twins(&random);
+        imp_scene *scene[2];
+        imp_query *query[2];
+        imp_error error;
+        for (int j = 0; j < 2; ++j) {
+            scene[j] = imp_scene_from_pair(registry, y.a[j], y.b[j], &error);
+            ck_assert_msg(scene[j] != NULL, "%s", error.text);
+            query[j] = sliced(scene[j], SLICES);
+        }
+        double least = INFINITY, most = 0;
+        for (size_t k = 0; k < SLICES; ++k) {
+            const imp_clearance r = slice_of(scene[0], query[0], k),
+                                s = slice_of(scene[1], query[1], k);
+            ck_assert_msg(r.lower <= s.upper + 1e-12 && s.lower <= r.upper + 1e-12,
+                          "%s | %s, slice %zu: [%.17g, %.17g], at rest [%.17g, %.17g]", y.a[0],
+                          y.b[0], k, r.lower, r.upper, s.lower, s.upper);
+            apart += r.lower > 0;
+            least = r.upper < least ? r.upper : least;
+            most = r.lower > most ? r.lower : most;
+        }
+        differ += least < most;
+        for (int j = 0; j < 2; ++j) imp_query_free(query[j]), imp_scene_free(scene[j]);
+    }
+    ck_assert_msg(apart > 20 && differ > 5, "%d are apart, %d differ", apart, differ);
+}
+END_TEST
+
+/* What turns within itself needs few pairs a slice, however many slices there are, and trees that
+ * are made anew for later slices hold what the first ones held. */
+START_TEST(slices_of_what_turns_within_itself_cost_little)
+{
+    static const struct {
+        const char *a, *b;
+        uint64_t slices, pairs_of_one;
+        double apart;
+    } row[] = {{"cylinder radius=0.4 ends=true ! rotate axis=0,0,1 rate=100",
+                "box size=1,1,1 center=0.901,0,0.02", 4, 60, 0.001},
+               {"torus ! rotate axis=0,0,1 rate=20 ! rotate axis=1,0,0 angle=[0.3] ! translate "
+                "velocity=0,0,0.1",
+                "sphere radius=0.5 center=4,0.3,0.1", 3000, 50, NAN},
+               {"torus ! rotate axis=0,0,1 rate=20",
+                "torus minor_radius=0.2 ! rotate axis=0,0,1 "
+                "rate=-3 ! translate velocity=0,0,0.1",
+                1000, 20, NAN}};
+    for (size_t n = 0; n < sizeof row / sizeof *row; ++n) {
+        imp_error error;
+        imp_scene *scene = imp_scene_from_pair(registry, row[n].a, row[n].b, &error);
+        ck_assert_msg(scene != NULL, "%s", error.text);
+        imp_query *query = sliced(scene, row[n].slices);
+        uint64_t pairs = 0;
+        for (uint64_t k = 0; k < row[n].slices; ++k) {
+            const imp_clearance r = slice_of(scene, query, k);
+            ck_assert_msg(r.reason == IMP_REASON_NONE, "%s | %s, slice %d: reason %d", row[n].a,
+                          row[n].b, (int)k, (int)r.reason);
+            if (!isnan(row[n].apart))
+                ck_assert(r.lower <= row[n].apart && row[n].apart <= r.upper * (1 + 1e-9));
+            pairs += r.stats.pairs;
+        }
+        ck_assert_msg(pairs <= row[n].slices * row[n].pairs_of_one, "%s | %s: %d pairs", row[n].a,
+                      row[n].b, (int)pairs);
+        imp_query_free(query);
+        imp_scene_free(scene);
+    }
+}
+END_TEST
+
 /* --- Points ----------------------------------------------------------------------------------- */
 
 static const surface *piece_at(const surface *s, size_t k)
@@ -421,6 +524,8 @@ int main(void)
 {
     const TTest *const tests[] = {what_turns_within_itself_touches_when_it_would_at_rest,
                                   what_turns_within_itself_is_as_far_as_it_would_be_at_rest,
+                                  what_turns_within_itself_is_in_each_slice_as_far_as_at_rest,
+                                  slices_of_what_turns_within_itself_cost_little,
                                   each_point_of_a_surface_held_is_one_of_the_surface,
                                   what_turns_beside_its_line_is_not_held,
                                   points_of_surfaces_held_are_found_wherever_they_are,
