@@ -115,6 +115,7 @@ check_suites = \
     tests/unit/test_survey \
     tests/unit/test_survey_state \
     tests/unit/test_clocks \
+    tests/unit/test_contact_paraboloid \
     tests/unit/test_survey_samples \
     tests/unit/test_survey_descent \
     tests/unit/test_spreads \

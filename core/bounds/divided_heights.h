@@ -19,15 +19,16 @@ enum {
     DIVIDED_DEPTH = 24 /* most halvings of one part */
 };
 
+#define DIVIDED_UNROLL _Pragma("GCC unroll 4")
+
 typedef struct divided_part {
     double x[DIVIDED_ROW * DIVIDED_ROW]; /* coefficients: seven rows, or four rows of four */
-    double low;                          /* the least */
-    parameter along;                     /* along which it bends more */
     int depth;
 } divided_part;
 
 typedef struct divided_heights {
     divided_part part[DIVIDED_PARTS];
+    double low[DIVIDED_PARTS]; /* the least coefficient of each */
     int count;
     double top; /* the least height of a corner so far */
 } divided_heights;
@@ -46,37 +47,32 @@ _Static_assert(4 + 5 + 23 + 4 + 6 * DIVIDED_DEPTH <= DIVIDED_ROUNDING, "rounding
 
 /* --- Products of cubics ----------------------------------------------------------------------- */
 
+/* Products of two cubics, whose coefficients have been multiplied by binomials, by the coefficient
+ * of the first: those of the k-th count from place k on. */
+typedef struct cubic_products {
+    imp_quad from[4];
+} cubic_products;
+
+IMP_QUAD_INLINE void add_product(cubic_products *sum, imp_quad x, imp_quad y)
+{
+    for (int k = 0; k < 4; ++k) sum->from[k] += imp_quad_all(x[k]) * y;
+}
+
 /* Seven numbers; the eighth is 0. */
 typedef struct divided_row {
     imp_quad of[2];
 } divided_row;
 
-/* Adds four numbers to those from place k on. */
-IMP_QUAD_INLINE void add_at(divided_row *sum, int k, imp_quad x)
+IMP_QUAD_INLINE divided_row products_summed(const cubic_products *p)
 {
-    const imp_quad none = imp_quad_all(0);
-    switch (k) {
-    case 0:
-        sum->of[0] += x;
-        return;
-    case 1:
-        sum->of[0] += IMP_QUAD_SHUFFLE(none, x, 0, 4, 5, 6);
-        sum->of[1] += IMP_QUAD_SHUFFLE(none, x, 7, 0, 0, 0);
-        return;
-    case 2:
-        sum->of[0] += IMP_QUAD_SHUFFLE(none, x, 0, 0, 4, 5);
-        sum->of[1] += IMP_QUAD_SHUFFLE(none, x, 6, 7, 0, 0);
-        return;
-    default:
-        sum->of[0] += IMP_QUAD_SHUFFLE(none, x, 0, 0, 0, 4);
-        sum->of[1] += IMP_QUAD_SHUFFLE(none, x, 5, 6, 7, 0);
-    }
-}
-
-/* Adds the products of two cubics whose coefficients have been multiplied by binomials. */
-IMP_QUAD_INLINE void add_product(divided_row *sum, imp_quad x, imp_quad y)
-{
-    for (int k = 0; k < 4; ++k) add_at(sum, k, imp_quad_all(x[k]) * y);
+    const imp_quad none = imp_quad_all(0), *x = p->from;
+    divided_row sum = {{x[0], IMP_QUAD_SHUFFLE(none, x[1], 7, 0, 0, 0)}};
+    sum.of[0] += IMP_QUAD_SHUFFLE(none, x[1], 0, 4, 5, 6);
+    sum.of[0] += IMP_QUAD_SHUFFLE(none, x[2], 0, 0, 4, 5);
+    sum.of[1] += IMP_QUAD_SHUFFLE(none, x[2], 6, 7, 0, 0);
+    sum.of[0] += IMP_QUAD_SHUFFLE(none, x[3], 0, 0, 0, 4);
+    sum.of[1] += IMP_QUAD_SHUFFLE(none, x[3], 5, 6, 7, 0);
+    return sum;
 }
 
 static const double divided_cubic[4] = {1, 3, 3, 1};
@@ -89,57 +85,87 @@ IMP_QUAD_INLINE void multiply_out(const imp_quad x[4], imp_quad out[4])
     for (int k = 0; k < 4; ++k) out[k] = imp_quad_all(divided_cubic[k]) * row * x[k];
 }
 
-/* Adds `by` times the square of a patch to the rows of its coefficients. */
-IMP_QUAD_INLINE void add_square(divided_row sum[7], const imp_quad patch[4], double by)
+/* The patches of a height, multiplied out: `sign` times z, across, and `by` times across. */
+typedef struct divided_patches {
+    imp_quad z[4], x[2][4], times[2][4];
+} divided_patches;
+
+IMP_QUAD_INLINE void patches_take(const imp_quad z[4], const imp_quad x[2][4], double sign,
+                                  const double by[2], divided_patches *p)
 {
-    imp_quad x[4];
-    multiply_out(patch, x);
-    for (int i = 0; i < 4; ++i)
-        for (int j = i; j < 4; ++j)
-            add_product(&sum[i + j], imp_quad_all(i == j ? by : 2 * by) * x[i], x[j]);
+    multiply_out(z, p->z);
+    for (int k = 0; k < 4; ++k) p->z[k] = imp_quad_all(sign) * p->z[k];
+    for (int i = 0; i < 2; ++i) {
+        multiply_out(x[i], p->x[i]);
+        for (int k = 0; k < 4; ++k) p->times[i][k] = imp_quad_all(-by[i]) * p->x[i][k];
+    }
 }
 
-/* Adds a patch. */
-IMP_QUAD_INLINE void add_raised(divided_row sum[7], const imp_quad patch[4], double by)
+/* Row r of the height: z raised by three degrees, less by_i times the squares of x_i. */
+IMP_QUAD_INLINE divided_row height_row(const divided_patches *p, int r)
 {
-    const imp_quad ones = imp_quad_load(divided_cubic);
-    imp_quad x[4];
-    multiply_out(patch, x);
-    for (int i = 0; i < 4; ++i) {
-        divided_row wide = {{imp_quad_all(0), imp_quad_all(0)}};
-        add_product(&wide, ones, imp_quad_all(by) * x[i]);
-        for (int j = 0; j < 4; ++j)
-            for (int q = 0; q < 2; ++q)
-                sum[i + j].of[q] += imp_quad_all(divided_cubic[j]) * wide.of[q];
-    }
+    const int first = r > 3 ? r - 3 : 0;
+    const imp_quad none = imp_quad_all(0);
+    cubic_products sum = {{none, none, none, none}};
+    imp_quad raised = none;
+    DIVIDED_UNROLL
+    for (int i = first; i <= r - first; ++i) raised += imp_quad_all(divided_cubic[r - i]) * p->z[i];
+    add_product(&sum, imp_quad_load(divided_cubic), raised);
+    DIVIDED_UNROLL
+    for (int i = first; 2 * i <= r; ++i)
+        for (int j = 0; j < 2; ++j) {
+            imp_quad x = p->times[j][i];
+            if (2 * i != r) x += x;
+            add_product(&sum, x, p->x[j][r - i]);
+        }
+    return products_summed(&sum);
 }
 
 /* --- Parts ------------------------------------------------------------------------------------ */
 
-/* Keeps the least coefficient, the least corner, and the direction of the greater second
- * difference. Which parameter is halved is of no consequence but for work. */
-IMP_QUAD_INLINE void part_measure(divided_part *p, bool is_flat, double *top)
+/* The greatest of three numbers and 0; a NaN counts for nothing. */
+IMP_QUAD_INLINE double greatest_of_three(double x, double y, double z)
+{
+    double most = 0;
+    if (x > most) most = x;
+    if (y > most) most = y;
+    if (z > most) most = z;
+    return most;
+}
+
+IMP_QUAD_INLINE double bend_along(const double *first, const double *middle, const double *end)
+{
+    return fabs(*first - 2 * *middle + *end);
+}
+
+/* Returns the parameter with the greater second difference. Which one is halved is of no
+ * consequence but for work. */
+IMP_QUAD_INLINE parameter bent_along(const divided_part *p, bool is_flat)
+{
+    const int last = is_flat ? 3 : 6, mid = is_flat ? 1 : 3, row = is_flat ? IMP_QUAD : DIVIDED_ROW;
+    const double *const a = p->x, *const b = p->x + mid * row, *const c = p->x + last * row;
+    const imp_quad two = imp_quad_all(2);
+    const imp_quad u = imp_quad_abs(imp_quad_load(a) - two * imp_quad_load(b) + imp_quad_load(c));
+    const double end = is_flat ? u[mid] : bend_along(a + last, b + last, c + last);
+    const double along_u = greatest_of_three(u[0], u[3], end);
+    const double along_v =
+        greatest_of_three(bend_along(a, a + mid, a + last), bend_along(b, b + mid, b + last),
+                          bend_along(c, c + mid, c + last));
+    return along_u > along_v ? PARAMETER_U : PARAMETER_V;
+}
+
+/* Keeps the least corner, and returns the least coefficient. */
+IMP_QUAD_INLINE double part_measure(const divided_part *p, bool is_flat, double *top)
 {
     const int last = is_flat ? 3 : 6, row = is_flat ? IMP_QUAD : DIVIDED_ROW;
-    const double *const first = p->x, *const middle = p->x + (is_flat ? 1 : 3) * row,
-                        *const end = p->x + last * row;
+    const double *const end = p->x + last * row;
     imp_quad low = imp_quad_load(p->x);
     for (int k = IMP_QUAD; k < (last + 1) * row; k += IMP_QUAD)
         low = imp_quad_min(imp_quad_load(p->x + k), low);
-    p->low = least_of(low);
-    const double corner[4] = {first[0], first[last], end[0], end[last]};
+    const double corner[4] = {p->x[0], p->x[last], end[0], end[last]};
     for (int k = 0; k < 4; ++k)
         if (corner[k] < *top) *top = corner[k];
-    double bend[2] = {0, 0};
-    const int at[3] = {0, is_flat ? 1 : 3, last};
-    const double *const of[3] = {first, middle, end};
-    for (int k = 0; k < 3; ++k) {
-        const double u = fabs(first[at[k]] - 2 * middle[at[k]] + end[at[k]]);
-        const double v = fabs(of[k][0] - 2 * of[k][at[1]] + of[k][last]);
-        if (u > bend[0]) bend[0] = u;
-        if (v > bend[1]) bend[1] = v;
-    }
-    p->along = bend[0] > bend[1] ? PARAMETER_U : PARAMETER_V;
+    return least_of(low);
 }
 
 /* De Casteljau at the middle, for four polynomials of order 6 at once. */
@@ -191,11 +217,12 @@ IMP_QUAD_INLINE void halve_along_v(const divided_part *p, divided_part *const ha
 
 IMP_QUAD_INLINE void part_halve(const divided_part *p, bool is_flat, divided_part *const half[2])
 {
+    const parameter along = bent_along(p, is_flat);
     if (is_flat) {
-        const halved_rows both = rows_halved(rows_along(rows_at(p->x), p->along));
+        const halved_rows both = rows_halved(rows_along(rows_at(p->x), along));
         for (int h = 0; h < 2; ++h)
-            rows_store(half[h]->x, rows_along(rows_of_half(&both, h), p->along));
-    } else if (p->along == PARAMETER_U) {
+            rows_store(half[h]->x, rows_along(rows_of_half(&both, h), along));
+    } else if (along == PARAMETER_U) {
         halve_along_u(p, half);
     } else {
         halve_along_v(p, half);
@@ -229,25 +256,26 @@ IMP_QUAD_INLINE void divided_begin(divided_heights *h, const imp_quad z[4], cons
     if (is_flat) {
         for (int k = 0; k < 4; ++k) imp_quad_store(p->x + IMP_QUAD * k, imp_quad_all(sign) * z[k]);
     } else {
-        divided_row sum[7];
-        for (int k = 0; k < 7; ++k) sum[k].of[0] = sum[k].of[1] = imp_quad_all(0);
-        add_raised(sum, z, sign);
-        for (int i = 0; i < 2; ++i) add_square(sum, x[i], -by[i]);
-        for (int k = 0; k < 7; ++k)
+        divided_patches of;
+        patches_take(z, x, sign, by, &of);
+        _Pragma("GCC unroll 7") for (int k = 0; k < 7; ++k)
+        {
+            const divided_row row = height_row(&of, k);
             for (int q = 0; q < 2; ++q)
                 imp_quad_store(p->x + DIVIDED_ROW * k + IMP_QUAD * q,
-                               sum[k].of[q] * (imp_quad_all(divided_over[k]) *
-                                               imp_quad_load(divided_over + IMP_QUAD * q)));
+                               row.of[q] * (imp_quad_all(divided_over[k]) *
+                                            imp_quad_load(divided_over + IMP_QUAD * q)));
+        }
         for (int k = 0; k < 7; ++k) p->x[DIVIDED_ROW * k + 7] = p->x[DIVIDED_ROW * k + 6];
     }
-    part_measure(p, is_flat, &h->top);
+    h->low[0] = part_measure(p, is_flat, &h->top);
 }
 
 static inline int lowest_part(const divided_heights *h)
 {
     int best = 0;
     for (int k = 1; k < h->count; ++k)
-        if (h->part[k].low < h->part[best].low) best = k;
+        if (h->low[k] < h->low[best]) best = k;
     return best;
 }
 
@@ -259,21 +287,22 @@ IMP_QUAD_INLINE bool divide(divided_heights *h, int at, bool is_flat)
     if (h->count == DIVIDED_PARTS || p->depth == DIVIDED_DEPTH) return false;
     q->depth = ++p->depth;
     part_halve(p, is_flat, (divided_part *const[2]){p, q});
-    part_measure(p, is_flat, &h->top);
-    part_measure(q, is_flat, &h->top);
-    if (p->low > h->top)
-        *p = *q;
-    else if (!(q->low > h->top))
-        h->count += 1;
+    const double low = part_measure(p, is_flat, &h->top), other = part_measure(q, is_flat, &h->top);
+    const bool is_replaced = low > h->top;
+    if (is_replaced) *p = *q;
+    h->low[at] = is_replaced ? other : low;
+    h->low[h->count] = other;
+    if (!is_replaced && !(other > h->top)) h->count += 1;
     return true;
 }
 
-/* Whether the sum of both patches' least heights exceeds the limit. */
+/* Whether the sum of both patches' least heights exceeds the limit. It may go on with a greater
+ * limit, once it exceeds one: which parts are halved does not depend on it. */
 IMP_QUAD_INLINE bool divided_exceed(divided_heights h[2], double limit, bool is_flat)
 {
-    int at[2] = {0, 0};
+    int at[2] = {lowest_part(&h[0]), lowest_part(&h[1])};
     for (;;) {
-        const double low[2] = {h[0].part[at[0]].low, h[1].part[at[1]].low};
+        const double low[2] = {h[0].low[at[0]], h[1].low[at[1]]};
         if (low[0] + low[1] > limit) return true;
         if (!(h[0].top + h[1].top > limit)) return false;
         const int side = h[0].top - low[0] > h[1].top - low[1] ? 0 : 1;

@@ -19,9 +19,9 @@ typedef struct hulls {
 IMP_QUAD_INLINE vec3 lowest_of(const void *set, vec3 n)
 {
     const hulls *h = set;
-    const vec3 p = lowest_of_cloud(&h->b, h->quads_b, n);
-    const vec3 q = lowest_of_cloud(&h->a, h->quads_a, vec3_scale(n, -1));
-    return vec3_add(vec3_sub(p, q), h->apart);
+    const lowest_points low = lowest_of_lanes(&h->b, &h->a, lanes_of_cloud(&h->b, h->quads_b, n),
+                                              lanes_of_cloud(&h->a, h->quads_a, vec3_scale(n, -1)));
+    return vec3_add(vec3_sub(low.p, low.q), h->apart);
 }
 
 IMP_QUAD_INLINE bool seek(const node *a, const node *b, double t, vec3 *axis)

@@ -23,7 +23,7 @@ typedef struct cloud {
     imp_quad x[3][QUADS_MAX];
 } cloud;
 
-IMP_QUAD_INLINE void cloud_take(const net *f, double t, int quads, cloud *z)
+IMP_QUAD_INLINE void cloud_take(const net *f, double t, int quads, bool is_moving, cloud *z)
 {
     const imp_quad tau = imp_quad_all(t - f->time);
     const int stride = IMP_QUAD * quads;
@@ -31,17 +31,19 @@ IMP_QUAD_INLINE void cloud_take(const net *f, double t, int quads, cloud *z)
         for (int k = 0; k < quads; ++k) {
             const double *x = f->numbers + i * stride + IMP_QUAD * k;
             z->x[i][k] = imp_quad_load(x);
-            if (f->is_moving) z->x[i][k] += tau * imp_quad_load(x + 3 * stride);
+            if (is_moving) z->x[i][k] += tau * imp_quad_load(x + 3 * stride);
         }
 }
 
 /* Unrolled for bicubic patches. */
 IMP_QUAD_INLINE void cloud_at(const net *f, double t, cloud *z)
 {
-    if (f->stride == 16)
-        cloud_take(f, t, 4, z);
+    if (f->stride != 16)
+        cloud_take(f, t, f->stride / IMP_QUAD, f->is_moving, z);
+    else if (f->is_moving)
+        cloud_take(f, t, 4, true, z);
     else
-        cloud_take(f, t, f->stride / IMP_QUAD, z);
+        cloud_take(f, t, 4, false, z);
 }
 
 IMP_QUAD_INLINE imp_quad height(const cloud *z, int k, const imp_quad n[3])
@@ -49,31 +51,64 @@ IMP_QUAD_INLINE imp_quad height(const cloud *z, int k, const imp_quad n[3])
     return n[0] * z->x[0][k] + n[1] * z->x[1][k] + n[2] * z->x[2][k];
 }
 
-/* The point that lies lowest along the axis; of several, the first of the lowest lane. */
-IMP_QUAD_INLINE vec3 lowest_point(const cloud *z, int quads, vec3 axis)
+/* The least height of each lane, and the index of the first point that has it. */
+typedef struct lowest_lanes {
+    imp_quad low;
+    imp_quad_mask at;
+} lowest_lanes;
+
+IMP_QUAD_INLINE lowest_lanes lanes_along(const cloud *z, int quads, vec3 axis)
 {
     const imp_quad n[3] = {imp_quad_all(axis.x[0]), imp_quad_all(axis.x[1]),
                            imp_quad_all(axis.x[2])};
-    imp_quad low = height(z, 0, n);
-    imp_quad_mask at = {0, 1, 2, 3};
+    lowest_lanes l = {height(z, 0, n), {0, 1, 2, 3}};
     for (int k = 1; k < quads; ++k) {
         const imp_quad here = height(z, k, n);
-        const imp_quad_mask lower = here < low;
+        const imp_quad_mask lower = here < l.low;
         const int64_t first = IMP_QUAD * k;
-        at = (lower & (imp_quad_mask){first, first + 1, first + 2, first + 3}) | (~lower & at);
-        low = imp_quad_min(here, low);
+        l.at = (lower & (imp_quad_mask){first, first + 1, first + 2, first + 3}) | (~lower & l.at);
+        l.low = imp_quad_min(here, l.low);
     }
-    const int64_t left = low[1] < low[0] ? at[1] : at[0], right = low[3] < low[2] ? at[3] : at[2];
-    const double least[2] = {low[1] < low[0] ? low[1] : low[0], low[3] < low[2] ? low[3] : low[2]};
-    const int64_t best = least[1] < least[0] ? right : left;
-    const double *x = (const double *)z->x + best;
-    return (vec3){{x[0], x[IMP_QUAD * QUADS_MAX], x[2 * IMP_QUAD * QUADS_MAX]}};
+    return l;
 }
 
 /* Unrolled for bicubic patches. */
+IMP_QUAD_INLINE lowest_lanes lanes_of_cloud(const cloud *z, int quads, vec3 n)
+{
+    return quads == 4 ? lanes_along(z, 4, n) : lanes_along(z, quads, n);
+}
+
+/* The lowest points of two clouds; of several, the first of the lowest lane. */
+typedef struct lowest_points {
+    vec3 p, q;
+} lowest_points;
+
+IMP_QUAD_INLINE vec3 point_of_cloud(const cloud *z, int64_t at)
+{
+    const double *x = (const double *)z->x + at;
+    return (vec3){{x[0], x[IMP_QUAD * QUADS_MAX], x[2 * IMP_QUAD * QUADS_MAX]}};
+}
+
+/* Lanes of both are compared side by side: 0 with 1, and 2 with 3, then the lower of these. */
+IMP_QUAD_INLINE lowest_points lowest_of_lanes(const cloud *z, const cloud *y, lowest_lanes p,
+                                              lowest_lanes q)
+{
+    const imp_quad even = IMP_QUAD_SHUFFLE(p.low, q.low, 0, 4, 2, 6),
+                   odd = IMP_QUAD_SHUFFLE(p.low, q.low, 1, 5, 3, 7);
+    const imp_quad at_even = IMP_QUAD_SHUFFLE((imp_quad)p.at, (imp_quad)q.at, 0, 4, 2, 6),
+                   at_odd = IMP_QUAD_SHUFFLE((imp_quad)p.at, (imp_quad)q.at, 1, 5, 3, 7);
+    const imp_quad_mask lower = odd < even;
+    const imp_quad low = imp_quad_min(odd, even);
+    const imp_quad_mask at = (lower & (imp_quad_mask)at_odd) | (~lower & (imp_quad_mask)at_even);
+    return (lowest_points){point_of_cloud(z, low[2] < low[0] ? at[2] : at[0]),
+                           point_of_cloud(y, low[3] < low[1] ? at[3] : at[1])};
+}
+
+/* The lowest point of one cloud. */
 IMP_QUAD_INLINE vec3 lowest_of_cloud(const cloud *z, int quads, vec3 n)
 {
-    return quads == 4 ? lowest_point(z, 4, n) : lowest_point(z, quads, n);
+    const lowest_lanes l = lanes_of_cloud(z, quads, n);
+    return lowest_of_lanes(z, z, l, l).p;
 }
 
 /* --- Over a window ---------------------------------------------------------------------------- */

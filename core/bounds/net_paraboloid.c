@@ -172,13 +172,12 @@ IMP_QUAD_INLINE bool corners_exceed(const placed_nets *p, const heights_rule *ru
     return sum > limit;
 }
 
-IMP_QUAD_INLINE bool all_exceed(const placed_nets *p, const heights_rule *rule, bool is_flat,
-                                double limit, divided_heights h[2])
+IMP_QUAD_INLINE void divide_both(const placed_nets *p, const heights_rule *rule, bool is_flat,
+                                 divided_heights h[2])
 {
     for (int side = 0; side < 2; ++side)
         divided_begin(&h[side], p->of[side].z, p->of[side].x, 2 * half_sign(side), rule->by[side],
                       is_flat);
-    return divided_exceed(h, limit, is_flat);
 }
 
 IMP_QUAD_INLINE void place_both(const net *const nets[2], const net_paraboloid *d, double t,
@@ -187,6 +186,8 @@ IMP_QUAD_INLINE void place_both(const net *const nets[2], const net_paraboloid *
     for (int side = 0; side < 2; ++side) place_rows(nets[side], d, t, is_flat, first, &p->of[side]);
 }
 
+/* What fails fails at the window's end, mostly: there the heights have to exceed the least limit,
+ * without rounding, before the start is looked at. */
 IMP_QUAD_INLINE bool parts_by(const node *a, const node *b, const net_paraboloid *d,
                               double gamma_clear, const time_window *w, bool is_flat)
 {
@@ -199,6 +200,11 @@ IMP_QUAD_INLINE bool parts_by(const node *a, const node *b, const net_paraboloid
     place_both(nets, d, w->hi, is_flat, 0, &late);
     if (!corners_exceed(&late, &rule, is_flat, near)) return false;
     place_both(nets, d, w->hi, is_flat, 1, &late);
+    const double gram = gram_upper(d), root = gram > 1 ? padded_upper(sqrt(gram), 4) : 1;
+    rule = rule_of(d, near, root);
+    if (!corners_exceed(&late, &rule, is_flat, rule.limit)) return false;
+    divide_both(&late, &rule, is_flat, h);
+    if (!divided_exceed(h, rule.limit, is_flat)) return false;
     for (int first = 0; first < 2; ++first) place_both(nets, d, w->lo, is_flat, first, &early);
     for (int side = 0; side < 2; ++side) {
         sizes_take(&s, &late.of[side], is_flat);
@@ -206,16 +212,14 @@ IMP_QUAD_INLINE bool parts_by(const node *a, const node *b, const net_paraboloid
     }
     for (int side = 0; side < 2 && !is_flat; ++side)
         sizes_take_change(&s, side, &early.of[side], &late.of[side]);
-    const double gram = gram_upper(d), root = gram > 1 ? padded_upper(sqrt(gram), 4) : 1;
     const double size = size_of(nets[0], d, w) + size_of(nets[1], d, w);
-    rule = rule_of(d, near, root);
     const limits over = limits_upper(d, &rule, &s, size, near * root);
     const double at_start = over.end + over.more_at_start;
     if (!(size < PARABOLOID_LARGE && at_start < INFINITY)) return false;
-    return corners_exceed(&late, &rule, is_flat, over.end) &&
-           corners_exceed(&early, &rule, is_flat, at_start) &&
-           all_exceed(&late, &rule, is_flat, over.end, h) &&
-           all_exceed(&early, &rule, is_flat, at_start, h);
+    if (!corners_exceed(&early, &rule, is_flat, at_start)) return false;
+    if (!divided_exceed(h, over.end, is_flat)) return false;
+    divide_both(&early, &rule, is_flat, h);
+    return divided_exceed(h, at_start, is_flat);
 }
 
 IMP_QUAD_INLINE bool parts(const node *a, const node *b, const net_paraboloid *d,

@@ -41,10 +41,10 @@ static inline void raise_net(const net *f, const double *x, double raised[16])
 }
 
 /* Loads two rows of a coordinate. */
-IMP_QUAD_INLINE void rows_of_net(const net *f, const double *x, const int at[2], imp_quad row[2])
+IMP_QUAD_INLINE void rows_of_net(const net *f, const double *x, const int at[2], bool is_bicubic,
+                                 imp_quad row[2])
 {
     double raised[16];
-    const bool is_bicubic = f->degree[0] == 3 && f->degree[1] == 3;
     if (!is_bicubic) raise_net(f, x, raised);
     for (int k = 0; k < 2; ++k) row[k] = imp_quad_load((is_bicubic ? x : raised) + 4 * at[k]);
 }
@@ -61,9 +61,8 @@ IMP_QUAD_INLINE imp_quad along(const imp_quad x[3][2], int k, vec3 n)
 enum { PLACE_ROUNDING = 64 };
 _Static_assert((7 + 2 + 6 * 4 + 1 + 5) * 9 < 8 * PLACE_ROUNDING, "rounding of a place");
 
-/* Fills two rows: the first and the last (0), which hold the patch's corners, or those between. */
-IMP_QUAD_INLINE void place_rows(const net *f, const net_paraboloid *d, double t, bool is_flat,
-                                int first, placed *to)
+IMP_QUAD_INLINE void place_rows_of(const net *f, const net_paraboloid *d, double t, bool is_flat,
+                                   int first, bool is_bicubic, placed *to)
 {
     const double tau = t - f->time, since = t - d->time;
     const int rows_of_two[2] = {first, 3 - first};
@@ -71,10 +70,10 @@ IMP_QUAD_INLINE void place_rows(const net *f, const net_paraboloid *d, double t,
     for (int i = 0; i < 3; ++i) {
         const double offset =
             (f->place[i] - d->at.x[i]) + (tau * f->drift[i] - since * d->velocity.x[i]);
-        rows_of_net(f, f->numbers + i * f->stride, rows_of_two, x[i]);
+        rows_of_net(f, f->numbers + i * f->stride, rows_of_two, is_bicubic, x[i]);
         if (f->is_moving) {
             imp_quad v[2];
-            rows_of_net(f, f->numbers + (3 + i) * f->stride, rows_of_two, v);
+            rows_of_net(f, f->numbers + (3 + i) * f->stride, rows_of_two, is_bicubic, v);
             for (int k = 0; k < 2; ++k) x[i][k] += imp_quad_all(tau) * v[k];
         }
         for (int k = 0; k < 2; ++k) x[i][k] += imp_quad_all(offset);
@@ -84,6 +83,16 @@ IMP_QUAD_INLINE void place_rows(const net *f, const net_paraboloid *d, double t,
         to->z[row] = along(x, k, d->normal);
         for (int i = 0; i < 2 && !is_flat; ++i) to->x[i][row] = along(x, k, d->across[i]);
     }
+}
+
+/* Fills two rows: the first and the last (0), which hold the patch's corners, or those between. */
+IMP_QUAD_INLINE void place_rows(const net *f, const net_paraboloid *d, double t, bool is_flat,
+                                int first, placed *to)
+{
+    if (f->degree[0] == 3 && f->degree[1] == 3)
+        place_rows_of(f, d, t, is_flat, first, true, to);
+    else
+        place_rows_of(f, d, t, is_flat, first, false, to);
 }
 
 /* Bounds the sum of the sizes of all numbers whose sum is a coordinate of a control point, of x, y

@@ -12,6 +12,8 @@
 #include "core/bounds/strategy.h"
 #include "core/bounds/tuning.h"
 
+#include <impinge/quad.h>
+
 /* Returns the w of `moment`, clamped to the window. */
 static double focus_of(const difference *r, double moment)
 {
@@ -255,16 +257,18 @@ double separation_farthest_of_balls(const node *a, const node *b)
     return vec3_norm(vec3_sub(vec3_from(b->f.a), vec3_from(a->f.a))) + a->radius + b->radius;
 }
 
+/* The centre at the time s, relative to the region. */
+static inline imp_quad centre_at(const quadratic3 *f, double time)
+{
+    const imp_quad s = imp_quad_all(time);
+    return imp_quad_load(f->a) + (imp_quad_load(f->bt) + imp_quad_load(f->qtt) * s) * s;
+}
+
 double separation_centres(const node *a, const node *b, double t)
 {
     const imp_region *g = &a->region, *h = &b->region;
     const double s = g->d[2] > 0 ? (t - g->c[2]) / g->d[2] : 0;
     const double r = h->d[2] > 0 ? (t - h->c[2]) / h->d[2] : 0;
-    double sum = 0;
-    for (int i = 0; i < 3; ++i) {
-        const double x = a->f.a[i] + (a->f.bt[i] + a->f.qtt[i] * s) * s;
-        const double y = b->f.a[i] + (b->f.bt[i] + b->f.qtt[i] * r) * r;
-        sum += (y - x) * (y - x);
-    }
-    return sum;
+    const imp_quad apart = centre_at(&b->f, r) - centre_at(&a->f, s), square = apart * apart;
+    return square[0] + square[1] + square[2];
 }

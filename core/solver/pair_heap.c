@@ -9,8 +9,8 @@
 
 static bool place_before(const pair_place *p, const pair_place *q)
 {
-    for (int k = 0; k < 2; ++k)
-        if (p->key[k] != q->key[k]) return p->key[k] < q->key[k];
+    if (p->key[0] != q->key[0]) return p->key[0] < q->key[0];
+    if (p->key[1] != q->key[1]) return p->key[1] < q->key[1];
     return p->serial < q->serial;
 }
 
@@ -26,9 +26,8 @@ static size_t capacity_for(size_t count)
     return count < CAPACITY_LARGE ? 2 * count + CAPACITY_LEAST : count + count / 4;
 }
 
-bool pair_heap_reserve(pair_heap *heap, size_t more)
+bool pair_heap_grow(pair_heap *heap, size_t more)
 {
-    if (more <= heap->capacity - heap->count) return true;
     const size_t capacity = capacity_for(heap->count + more);
     const size_t used = heap->capacity * PAIR_HEAP_BYTES;
     pair *slots = arena_store_regrow(heap->store, heap->slots, used, capacity * PAIR_HEAP_BYTES);
@@ -57,14 +56,6 @@ void pair_heap_push(pair_heap *heap, const pair *p)
     }
     places[hole] = place;
 }
-
-const pair *pair_heap_at(const pair_heap *heap, size_t index)
-{
-    assert(index < heap->count);
-    return &heap->slots[heap->places[index].slot];
-}
-
-const pair *pair_heap_top(const pair_heap *heap) { return pair_heap_at(heap, 0); }
 
 pair pair_heap_pop(pair_heap *heap)
 {

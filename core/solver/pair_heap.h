@@ -3,6 +3,8 @@
 #ifndef CORE_SOLVER_PAIR_HEAP_H
 #define CORE_SOLVER_PAIR_HEAP_H
 
+#include <assert.h>
+
 #include "core/base/arena_store.h"
 #include "core/bounds/time_window.h"
 
@@ -45,18 +47,29 @@ typedef struct pair_heap {
 
 enum { PAIR_HEAP_BYTES = sizeof(pair_place) + sizeof(pair) }; /* for each pair of its capacity */
 
-/* Allocates memory for `more` pushes. False: no memory; the heap is unchanged. */
-bool pair_heap_reserve(pair_heap *heap, size_t more);
+/* Allocates memory for `more` pushes, which the heap has no room for. False: no memory; the heap is
+ * unchanged. */
+bool pair_heap_grow(pair_heap *heap, size_t more);
+
+/* Sees to it that there is room for `more` pushes. False: no memory; the heap is unchanged. */
+static inline bool pair_heap_reserve(pair_heap *heap, size_t more)
+{
+    return more <= heap->capacity - heap->count || pair_heap_grow(heap, more);
+}
 
 /* Pushes a copy of the pair. Precondition: pair_heap_reserve. */
 void pair_heap_push(pair_heap *heap, const pair *p);
 
 /* Returns a pair: the first for index 0, the others in no particular order. Precondition: index <
  * count. */
-const pair *pair_heap_at(const pair_heap *heap, size_t index);
+static inline const pair *pair_heap_at(const pair_heap *heap, size_t index)
+{
+    assert(index < heap->count);
+    return &heap->slots[heap->places[index].slot];
+}
 
 /* Return the first pair; pop also removes it. Precondition: count > 0. */
-const pair *pair_heap_top(const pair_heap *heap);
+static inline const pair *pair_heap_top(const pair_heap *heap) { return pair_heap_at(heap, 0); }
 pair pair_heap_pop(pair_heap *heap);
 
 void pair_heap_clear(pair_heap *heap);

@@ -56,7 +56,7 @@ bool pair_precision_ends(const pair *p, const candidate_pair *both, double room,
 /* --- The cut ---------------------------------------------------------------------------------- */
 
 /* Keeps the cut of greater value. A node without bounds is cut before a bounded one. */
-static void cut_consider(cut *best, const pair *p, int side, parameter j, double gain)
+static inline void cut_consider(cut *best, const pair *p, int side, parameter j, double gain)
 {
     if (best->side >= 0 && !(gain > best->gain)) return;
     if (side_of(p, side)->bounded && !side_of(p, !side)->bounded) return;

@@ -180,14 +180,12 @@ static imp_code contradict(const impact *im, imp_error *error)
                                im->found.gap_upper, im->t_lower, im->gamma_clear, error);
 }
 
-/* Ends the pair's window at the horizon and pushes the later part. Precondition: the heap has
- * capacity. */
-static void postpone(impact *im, pair *p)
+/* Ends the pair's window at the horizon, which is inside it, and pushes the later part.
+ * Precondition: the heap has capacity. */
+static void push_later(impact *im, pair *p)
 {
-    time_window behind;
-    if (!upper_time_divide(&im->upper, &p->window, &behind)) return;
     pair later = *p;
-    later.window = behind;
+    later.window.lo = p->window.hi = im->upper.horizon;
     later.serial = im->serial++;
     later.key[0] = later.window.lo;
     const uint32_t whole = p->proof;
@@ -195,6 +193,11 @@ static void postpone(impact *im, pair *p)
     later.proof = whole;
     pair_note_span(im->proof, &later);
     pair_heap_push(&im->heap, &later);
+}
+
+static inline void postpone(impact *im, pair *p)
+{
+    if (upper_time_divides(&im->upper, &p->window)) push_later(im, p);
 }
 
 /* Counts the pair, seeks an upper time from it at intervals, and ends its window at the horizon. */

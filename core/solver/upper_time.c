@@ -91,11 +91,3 @@ void upper_time_refine(upper_time *up, double gamma)
     up->is_known = false;
     up->next = up->followed;
 }
-
-bool upper_time_divide(const upper_time *up, time_window *window, time_window *later)
-{
-    if (!up->has_horizon || !(window->lo < up->horizon && up->horizon < window->hi)) return false;
-    *later = (time_window){up->horizon, window->hi};
-    window->hi = up->horizon;
-    return true;
-}

@@ -40,7 +40,10 @@ imp_code upper_time_try(upper_time *up, const pair *p, double start, double gamm
  * next pair is used to seek one. */
 void upper_time_refine(upper_time *up, double gamma);
 
-/* Ends the window at the horizon. True: it has a part after the horizon, which becomes *later. */
-bool upper_time_divide(const upper_time *up, time_window *window, time_window *later);
+/* Whether the horizon is inside the window. */
+static inline bool upper_time_divides(const upper_time *up, const time_window *window)
+{
+    return up->has_horizon && window->lo < up->horizon && up->horizon < window->hi;
+}
 
 #endif

@@ -21,7 +21,8 @@ size_t net_bytes(const net *n)
 
 static void take_column(double *to, int stride, const double *from, int points)
 {
-    for (int k = 0; k < stride; ++k) to[k] = from[k < points ? k : points - 1];
+    memcpy(to, from, (size_t)points * sizeof *to);
+    for (int k = points; k < stride; ++k) to[k] = from[points - 1];
 }
 
 static double greatest(const double *x, int points)

@@ -97,14 +97,25 @@ static bool bends_away(const contact_side *s, int side, vec3 n, const vec3 e[2])
 
 /* --- The paraboloid's curvature --------------------------------------------------------------- */
 
-/* A form's axes: along the first, turned by this angle, it is `first`, across that `second`. */
+/* A form's axes: along the first, turned by the angle with this cosine and sine, it is `first`,
+ * across that `second`, which is no more. */
 typedef struct turned {
     double c, s, first, second;
 } turned;
 
+/* With d = xx - yy, p = 2 xy and r = hypot(d, p) twice the angle has the cosine d / r and the sine
+ * p / r. Of cosine and sine of the angle the larger is the root of (r + |d|) / 2 r, where nothing
+ * cancels; their product is p / 2 r. Roots alone, so that the axes do not depend on the C library.
+ * Squares that overflow give a NaN, which proves nothing. */
 static turned axes_of(const form *q)
 {
-    const double angle = 0.5 * atan2(2 * q->xy, q->xx - q->yy), c = cos(angle), s = sin(angle);
+    const double d = q->xx - q->yy, p = 2 * q->xy, r = sqrt(d * d + p * p);
+    double c = 1, s = 0;
+    if (r > 0) {
+        const double larger = sqrt((r + fabs(d)) / (2 * r)), smaller = fabs(p) / (2 * r * larger);
+        c = d < 0 ? smaller : larger;
+        s = copysign(d < 0 ? larger : smaller, p);
+    }
     return (turned){c, s, q->xx * c * c + 2 * q->xy * c * s + q->yy * s * s,
                     q->xx * s * s - 2 * q->xy * c * s + q->yy * c * c};
 }

@@ -51,16 +51,22 @@ typedef struct cubics {
     double value[4], first[4], second[4];
 } cubics;
 
-static inline void cubics_at(double s, cubics *b)
+/* Computes them at four places side by side. */
+IMP_QUAD_INLINE void cubics_at(const double s[4], cubics at[4])
 {
-    const double x = 0.5 + 0.5 * s, y = 0.5 - 0.5 * s, xx = x * x, xy = x * y, yy = y * y;
-    const double value[4] = {y * yy, 3 * x * yy, 3 * y * xx, x * xx};
-    const double first[4] = {-1.5 * yy, 1.5 * yy - 3 * xy, 3 * xy - 1.5 * xx, 1.5 * xx};
-    const double second[4] = {1.5 * y, 1.5 * x - 3 * y, 1.5 * y - 3 * x, 1.5 * x};
+    const imp_quad half = imp_quad_all(0.5), three = imp_quad_all(3), by = imp_quad_all(1.5);
+    const imp_quad h = half * imp_quad_load(s), x = half + h, y = half - h;
+    const imp_quad xx = x * x, xy = x * y, yy = y * y;
+    imp_quad value[4] = {y * yy, three * x * yy, three * y * xx, x * xx};
+    imp_quad first[4] = {-by * yy, by * yy - three * xy, three * xy - by * xx, by * xx};
+    imp_quad second[4] = {by * y, by * x - three * y, by * y - three * x, by * x};
+    imp_quad_transpose(value);
+    imp_quad_transpose(first);
+    imp_quad_transpose(second);
     for (int k = 0; k < 4; ++k) {
-        b->value[k] = value[k];
-        b->first[k] = first[k];
-        b->second[k] = second[k];
+        imp_quad_store(at[k].value, value[k]);
+        imp_quad_store(at[k].first, first[k]);
+        imp_quad_store(at[k].second, second[k]);
     }
 }
 
@@ -151,25 +157,23 @@ IMP_QUAD_INLINE imp_quad columns_by(const imp_quad x[4], imp_quad f, bool is_wei
 }
 
 /* Evaluates a bicubic patch: along u row by row, then along v. */
-IMP_QUAD_INLINE void bicubic_sums(const net_points *f, bool is_weighted, const double s[2],
+IMP_QUAD_INLINE void bicubic_sums(const net_points *f, bool is_weighted, const cubics at[2],
                                   imp_quad sum[NET_DERIVATIVES])
 {
-    cubics u, v;
+    const cubics *u = &at[0], *v = &at[1];
     imp_quad x[4], xu[4], xuu[4];
-    cubics_at(s[0], &u);
-    cubics_at(s[1], &v);
     for (int i = 0; i < (is_weighted ? 4 : 3); ++i) {
-        x[i] = rows_by(f->x[i], u.value);
-        xu[i] = rows_by(f->x[i], u.first);
-        xuu[i] = rows_by(f->x[i], u.second);
+        x[i] = rows_by(f->x[i], u->value);
+        xu[i] = rows_by(f->x[i], u->first);
+        xuu[i] = rows_by(f->x[i], u->second);
     }
-    const imp_quad value = imp_quad_load(v.value), first = imp_quad_load(v.first);
+    const imp_quad value = imp_quad_load(v->value), first = imp_quad_load(v->first);
     sum[NET_VALUE] = columns_by(x, value, is_weighted);
     sum[NET_U] = columns_by(xu, value, is_weighted);
     sum[NET_V] = columns_by(x, first, is_weighted);
     sum[NET_UU] = columns_by(xuu, value, is_weighted);
     sum[NET_UV] = columns_by(xu, first, is_weighted);
-    sum[NET_VV] = columns_by(x, imp_quad_load(v.second), is_weighted);
+    sum[NET_VV] = columns_by(x, imp_quad_load(v->second), is_weighted);
 }
 
 /* Evaluates any patch, point by point. */
@@ -209,10 +213,10 @@ IMP_QUAD_INLINE void divide(imp_quad n[NET_DERIVATIVES])
     n[NET_V] = xv;
 }
 
-IMP_QUAD_INLINE void bicubic_jet(const net_points *f, bool is_weighted, const double s[2],
+IMP_QUAD_INLINE void bicubic_jet(const net_points *f, bool is_weighted, const cubics at[2],
                                  net_derivatives *out)
 {
-    bicubic_sums(f, is_weighted, s, out->by);
+    bicubic_sums(f, is_weighted, at, out->by);
     if (is_weighted) divide(out->by);
 }
 
@@ -222,19 +226,21 @@ static void any_jet(const net_points *f, const double s[2], net_derivatives *out
     if (f->net->is_weighted) divide(out->by);
 }
 
-IMP_QUAD_INLINE void jet_at(const net_points *f, const double s[2], net_derivatives *out)
-{
-    if (f->net->degree[0] != 3 || f->net->degree[1] != 3)
-        any_jet(f, s, out);
-    else if (f->net->is_weighted)
-        bicubic_jet(f, true, s, out);
-    else
-        bicubic_jet(f, false, s, out);
-}
+static bool is_bicubic(const net *f) { return f->degree[0] == 3 && f->degree[1] == 3; }
 
 IMP_QUAD_INLINE void jets_at(const net_points of[2], const double y[4], net_derivatives out[2])
 {
-    for (int side = 0; side < 2; ++side) jet_at(&of[side], y + 2 * side, &out[side]);
+    cubics at[4];
+    if (is_bicubic(of[0].net) || is_bicubic(of[1].net)) cubics_at(y, at);
+    for (int side = 0; side < 2; ++side) {
+        const net_points *f = &of[side];
+        if (!is_bicubic(f->net))
+            any_jet(f, y + 2 * side, &out[side]);
+        else if (f->net->is_weighted)
+            bicubic_jet(f, true, at + 2 * side, &out[side]);
+        else
+            bicubic_jet(f, false, at + 2 * side, &out[side]);
+    }
 }
 
 IMP_QUAD_WIDE static void jets_at_wide(const net_points of[2], const double y[4],
@@ -256,10 +262,10 @@ void net_eval_at(const net_points of[2], const double y[4], net_derivatives out[
 /* Returns the weighted sum of velocities, and the sum of the weights in the fourth lane. */
 static imp_quad bicubic_velocity(const net *f, const double s[2])
 {
-    const double *weights = weights_of(f);
-    cubics u, v;
-    cubics_at(s[0], &u);
-    cubics_at(s[1], &v);
+    const double *weights = weights_of(f), places[4] = {s[0], s[1], s[0], s[1]};
+    cubics at[4];
+    cubics_at(places, at);
+    const cubics u = at[0], v = at[1];
     imp_quad sum[4], share[4];
     for (int k = 0; k < 4; ++k) {
         share[k] = imp_quad_all(u.value[k]) * imp_quad_load(v.value);
@@ -295,8 +301,7 @@ vec3 net_velocity_at(const net *f, const double s[2])
 {
     vec3 velocity = vec3_from(f->drift);
     if (!f->is_moving) return velocity;
-    const bool is_bicubic = f->degree[0] == 3 && f->degree[1] == 3;
-    const imp_quad sum = is_bicubic ? bicubic_velocity(f, s) : any_velocity(f, s);
+    const imp_quad sum = is_bicubic(f) ? bicubic_velocity(f, s) : any_velocity(f, s);
     for (int i = 0; i < 3; ++i) velocity.x[i] += sum[i] / sum[3];
     return velocity;
 }

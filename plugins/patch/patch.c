@@ -150,11 +150,37 @@ void patch_set_differences(patch *f, int side)
 
 /* --- Points ----------------------------------------------------------------------------------- */
 
+/* Sums of weights times the net's numbers. */
+IMP_QUAD_INLINE void weighted_sums(const patch *f, const double *weight, int points, int lanes,
+                                   double sum[PATCH_LANES_MAX])
+{
+    const double *net = f->net;
+    imp_quad all[2] = {{0}, {0}};
+    for (int k = 0; k < points; ++k)
+        for (int h = 0; h < lanes / IMP_QUAD; ++h, net += IMP_QUAD)
+            all[h] += imp_quad_all(weight[k]) * imp_quad_load(net);
+    for (int h = 0; h < 2; ++h) imp_quad_store(sum + IMP_QUAD * h, all[h]);
+}
+
+IMP_QUAD_INLINE void sums_of(const patch *f, const double *weight, int points,
+                             double sum[PATCH_LANES_MAX])
+{
+    if (f->lanes == PATCH_LANES_MAX)
+        weighted_sums(f, weight, points, PATCH_LANES_MAX, sum);
+    else
+        weighted_sums(f, weight, points, f->lanes, sum);
+}
+
+IMP_QUAD_WIDE static void sums_of_wide(const patch *f, const double *weight, int points,
+                                       double sum[PATCH_LANES_MAX])
+{
+    sums_of(f, weight, points, sum);
+}
+
 /* sum_ij B_i(u) B_j(v) net_ij, per lane; 0 in lanes that are not there. */
 static void patch_sums(const patch *f, double u, double v, double sum[PATCH_LANES_MAX])
 {
-    const int n = f->degree[0], m = f->degree[1], stride = f->lanes / IMP_QUAD;
-    const imp_quad *net = (const imp_quad *)f->net;
+    const int n = f->degree[0], m = f->degree[1];
     double along_u[PATCH_SIDE_MAX], along_v[PATCH_SIDE_MAX];
     double weight[PATCH_SIDE_MAX * PATCH_SIDE_MAX];
     int points = 0;
@@ -162,11 +188,10 @@ static void patch_sums(const patch *f, double u, double v, double sum[PATCH_LANE
     bernstein_weights(along_v, m, v, 0, 0);
     for (int i = 0; i <= n; ++i)
         for (int j = 0; j <= m; ++j) weight[points++] = along_u[i] * along_v[j];
-    for (int h = 0; h < PATCH_LANES_MAX / IMP_QUAD; ++h) {
-        imp_quad all = {0};
-        for (int k = 0; h < stride && k < points; ++k) all += weight[k] * net[k * stride + h];
-        memcpy(sum + IMP_QUAD * h, &all, sizeof all);
-    }
+    if (imp_quad_is_wide())
+        sums_of_wide(f, weight, points, sum);
+    else
+        sums_of(f, weight, points, sum);
 }
 
 /* One point and its error.
