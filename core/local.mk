@@ -163,7 +163,9 @@ core_bounds = \
     core/bounds/claim_audit.c core/bounds/claim_audit.h \
     core/bounds/difference.c core/bounds/difference.h \
     core/bounds/distance.c core/bounds/distance.h \
-    core/bounds/piece_sides.c core/bounds/piece_sides.h core/bounds/piece_planes.c core/bounds/piece_rings.c \
+    core/bounds/piece_sides.c core/bounds/piece_sides.h \
+    core/bounds/piece_corners.c core/bounds/piece_planes.c \
+    core/bounds/piece_shadow.c core/bounds/piece_shadow.h core/bounds/piece_rings.c \
     core/bounds/distance_ball.c core/bounds/distance_sides.c \
     core/bounds/distance_start.c \
     core/bounds/fixed_axes.c core/bounds/fixed_axes.h \

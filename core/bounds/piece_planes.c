@@ -2,94 +2,11 @@
  * SPDX-License-Identifier: Apache-2.0 */
 #include <config.h>
 
-#include "core/bounds/piece_sides.h"
-
 #include <impinge/model.h>
-#include <stdlib.h>
 
 #include "core/base/rounding.h"
-#include "core/base/status.h"
-
-/* --- The other surface, as planes see it ------------------------------------------------------ */
-
-/* Points such that the least value of n.x at all times of the course, but for its way and what is
- * left out (lemma below), is that of w.p, w = weights_of(n): the corners where the course does not
- * spin, and else their places along the line and beside it. */
-typedef struct shadow_point {
-    vec3 p;
-    size_t piece; /* whose corner it is */
-} shadow_point;
-
-typedef struct shadow {
-    shadow_point *of;
-    size_t count;
-    double reach; /* >= |x| of each corner, seen from a; length */
-} shadow;
-
-static vec3 seen_by(const surface_course *c, vec3 y)
-{
-    vec3 x;
-    for (int i = 0; i < 3; ++i) x.x[i] = vec3_dot(vec3_from(c->turn[i]), y) + c->shift[i];
-    return x;
-}
-
-static vec3 weights_of(const surface_course *c, vec3 n)
-{
-    if (!c->spins) return n;
-    const vec3 axis = vec3_from(c->axis);
-    return (vec3){{vec3_dot(n, axis), -vec3_norm(vec3_cross(n, axis)), 0}};
-}
-
-static int along_line(const void *x, const void *y)
-{
-    const shadow_point *p = x, *q = y;
-    for (int i = 0; i < 2; ++i)
-        if (p->p.x[i] != q->p.x[i]) return p->p.x[i] < q->p.x[i] ? -1 : 1;
-    return p->piece < q->piece ? -1 : p->piece > q->piece;
-}
-
-/* Whether the middle one of three points, ordered along the line, is surely not above the others'
- * chord. Rounding: 2 of each product and 2 of its factors, 1 of the difference. */
-PAD_COVERS(16, 2 * 2 + 2 + 1);
-static bool is_below(vec3 before, vec3 middle, vec3 after)
-{
-    const vec3 u = vec3_sub(middle, before), v = vec3_sub(after, before);
-    const double rise = u.x[1] * v.x[0], chord = u.x[0] * v.x[1];
-    return chord - rise >= 16 * UNIT_ROUNDOFF * (fabs(rise) + fabs(chord));
-}
-
-/* Keeps the upper hull, but for points in doubt. Lemma. w.p with w[1] <= 0 is no less at a point
- * than at the better of two others on whose chord, or below, it lies, or at one straight above. */
-static void keep_outer(shadow *s)
-{
-    size_t kept = 0;
-    qsort(s->of, s->count, sizeof *s->of, along_line);
-    for (size_t k = 0; k < s->count; ++k) {
-        const shadow_point next = s->of[k];
-        if (kept > 0 && s->of[kept - 1].p.x[0] == next.p.x[0]) kept -= 1;
-        while (kept > 1 && is_below(s->of[kept - 2].p, s->of[kept - 1].p, next.p)) kept -= 1;
-        s->of[kept++] = next;
-    }
-    s->count = kept;
-}
-
-static imp_code take_shadow(const piece_course *of, shadow *s, imp_error *error)
-{
-    const surface_course *c = &of->course;
-    const vec3 center = vec3_from(c->center), axis = vec3_from(c->axis);
-    *s = (shadow){.count = 4 * of->other->count};
-    s->of = arena_store_room(of->other->store, s->count * sizeof *s->of);
-    if (s->of == NULL) return error_set_memory(error);
-    for (size_t k = 0; k < s->count; ++k) {
-        const vec3 x = seen_by(c, of->other->of[k / 4][k % 4]), from = vec3_sub(x, center);
-        const double size = vec3_norm(x);
-        const vec3 places = {{vec3_dot(from, axis), vec3_norm(vec3_cross(from, axis)), 0}};
-        s->of[k] = (shadow_point){c->spins ? places : x, k / 4};
-        if (size > s->reach) s->reach = size;
-    }
-    if (c->spins) keep_outer(s);
-    return IMP_SUCCESS;
-}
+#include "core/bounds/gjk.h"
+#include "core/bounds/piece_shadow.h"
 
 /* --- One plane -------------------------------------------------------------------------------- */
 
@@ -106,36 +23,50 @@ static imp_code take_shadow(const piece_course *of, shadow *s, imp_error *error)
  *
  * where the course does not spin, n.z stands for the first terms and n.c. What wanders across the
  * line loses |n x k| of its length: nothing but rounding, if the plane is across the line, too.
- * Several pieces have one plane, if x is any corner of them. Rounding, in units of u times |c|,
- * |z|, |x| and what wanders at most: z - c 1; k 8; p 4; cross product 4 and its length 4; n.k and
- * |n x k| 8 + 8 each; products and sum 4; n.c and n.x 4 each; sums 4. Of what is left out: product
- * 1, sums 5, 8. */
+ * Several pieces have one plane, if x is any corner of them. A hoop's corner x has the circle of
+ * radius r about its axis, across m: n.x is then at most r |n x m| more, and each cell's slack
+ * counts for itself. Rounding, in units of u times |c|, |z|, |x|, radii and what wanders at most: z
+ * - c 1; k 8; p 4; cross product 4 and its length 4; n.k and |n x k| 8 + 8 each; products and sum
+ * 4; n.c and n.x 4 each; sums 4; of a hoop a center 4, |n x m| 16, product and sums 4, sines 16 and
+ * their product and sums 5 (piece_shadow.c). Of what is left out: product 1, sums 5, 8. */
 enum { PLANE_ROUNDING = 256 };
-_Static_assert(1 + 8 + 4 + 8 + 2 * 16 + 4 + 8 + 4 <= PLANE_ROUNDING, "rounding of a plane");
+_Static_assert(1 + 8 + 4 + 8 + 2 * 16 + 4 + 8 + 4 + 4 + 16 + 4 + 16 + 5 <= PLANE_ROUNDING,
+               "rounding of a plane");
 PAD_COVERS(16, 6 + 8);
 
-/* Returns a model over the course that is no greater than the distance from b of pieces with
- * these corners. */
-static imp_model beyond(const piece_course *of, const shadow *s, const vec3 *corner, size_t corners,
-                        vec3 n, size_t *nearest)
+/* Some cells of a. */
+typedef struct some_cells {
+    const piece_cell *of;
+    size_t count;
+} some_cells;
+
+static double most_along(some_cells own, vec3 n)
+{
+    double most = -INFINITY;
+    for (size_t k = 0; k < own.count; ++k) {
+        const piece_cell *cell = &own.of[k];
+        const double sine = cell->is_hoop ? vec3_norm(vec3_cross(n, cell->axis)) : 0;
+        for (int j = 0; j < 4; ++j) {
+            const double here = vec3_dot(n, cell->corner[j]) + cell->radius[j] * sine + cell->slack;
+            if (!(here <= most)) most = here;
+        }
+    }
+    return most;
+}
+
+/* Returns a model over the course that is no greater than the distance of the cells from b. */
+static imp_model beyond(const piece_course *of, const piece_shadow *s, some_cells own, vec3 n,
+                        size_t *nearest)
 {
     const surface_course *c = &of->course;
-    const vec3 w = weights_of(c, n);
-    double least = INFINITY, most = -INFINITY;
+    const double least = piece_shadow_least(s, n, nearest), most = most_along(own, n);
     imp_model axis[3];
-    for (size_t k = 0; k < s->count; ++k) {
-        const double here = vec3_dot(w, s->of[k].p);
-        if (!(here >= least)) least = here, *nearest = s->of[k].piece;
-    }
-    for (size_t k = 0; k < corners; ++k) {
-        const double here = vec3_dot(n, corner[k]);
-        if (!(here <= most)) most = here;
-    }
     for (int i = 0; i < 3; ++i) axis[i] = imp_num(n.x[i]);
     const double at = c->spins ? vec3_dot(n, vec3_from(c->center)) : 0;
     const double center = c->spins ? vec3_norm(vec3_from(c->center)) : 0;
     const double size = s->reach + of->own->reach + center + c->wander;
-    const double wander = c->wander > 0 ? c->wander * -w.x[1] : 0;
+    const double wander =
+        c->wander > 0 ? c->wander * vec3_norm(vec3_cross(n, vec3_from(c->axis))) : 0;
     const double off = padded_upper(c->off + wander + of->own->slack + of->other->slack +
                                         PLANE_ROUNDING * UNIT_ROUNDOFF * size,
                                     16);
@@ -143,17 +74,13 @@ static imp_model beyond(const piece_course *of, const shadow *s, const vec3 *cor
     return imp_scale(g, 1 - 0x1p-48);
 }
 
-/* Whether a plane with that normal parts the pieces from b at some times of the window; view->left
- * becomes the others. */
-static bool part_by(const piece_course *of, const shadow *s, const vec3 *corner, size_t corners,
-                    vec3 n, double gamma_clear, piece_view *view)
+/* Leaves of view->left the times at which no plane with that normal parts the cells from b. */
+static void part_by(const piece_course *of, const piece_shadow *s, some_cells own, vec3 n,
+                    double gamma_clear, piece_view *view)
 {
-    const time_window whole = view->left;
-    const imp_model g = beyond(of, s, corner, corners, n, &view->hint.piece[1]);
+    const imp_model g = beyond(of, s, own, n, &view->hint.piece[1]);
     view->is_apart =
         distance_cut_heights(&g, 1, &of->times, gamma_clear, &view->left, &view->lower);
-    return view->is_apart || view->lower > 0 || view->left.lo > whole.lo ||
-           view->left.hi < whole.hi;
 }
 
 /* --- All planes ------------------------------------------------------------------------------- */
@@ -176,24 +103,104 @@ bool piece_view_is_useless(const piece_view *view, const time_window *window)
            view->left.hi >= window->hi;
 }
 
-/* A unit vector across the piece, on either side. False: there is none. */
-static bool across_piece(const vec3 corner[4], int side, vec3 *n)
+/* A unit vector across the cell, on either side; of a hoop, along its line. False: there is
+ * none. */
+static bool across_cell(const piece_cell *cell, int side, vec3 *n)
 {
-    const vec3 across = vec3_cross(vec3_sub(corner[3], corner[0]), vec3_sub(corner[2], corner[1]));
+    const vec3 *x = cell->corner;
+    const vec3 across =
+        cell->is_hoop ? cell->axis : vec3_cross(vec3_sub(x[3], x[0]), vec3_sub(x[2], x[1]));
     const double length = vec3_norm(across);
     *n = vec3_scale(across, (side == 0 ? 1 : -1) / length);
     return length > 0x1p-500 && length < INFINITY;
 }
 
-static void try_piece(const piece_course *of, const shadow *s, const vec3 corner[4],
-                      double gamma_clear, piece_view *one)
+/* --- The best plane --------------------------------------------------------------------------- */
+
+/* What b sweeps, less cells of a. The way that b has gone counts from one end of the course to the
+ * other. */
+typedef struct swept_gap {
+    const piece_shadow *s;
+    some_cells own;
+    vec3 way[2];
+} swept_gap;
+
+static vec3 lowest_gap(const void *set, vec3 n)
 {
-    const time_window window = one->left;
-    vec3 n;
-    for (int side = 0; side < 2 && across_piece(corner, side, &n); ++side) {
-        *one = (piece_view){.left = window};
-        if (part_by(of, s, corner, 4, n, gamma_clear, one)) return;
+    const swept_gap *g = set;
+    const vec3 back = vec3_scale(n, -1);
+    const vec3 way = vec3_dot(n, g->way[0]) < vec3_dot(n, g->way[1]) ? g->way[0] : g->way[1];
+    const vec3 low = vec3_add(piece_shadow_lowest(g->s, n), way);
+    double most = -INFINITY;
+    vec3 high = {{0, 0, 0}};
+    for (size_t k = 0; k < g->own.count; ++k)
+        for (int j = 0; j < 4; ++j) {
+            const piece_cell *cell = &g->own.of[k];
+            const vec3 x = cell->is_hoop ? piece_circle_lowest(cell->corner[j], cell->axis,
+                                                               cell->radius[j], back)
+                                         : cell->corner[j];
+            if (vec3_dot(n, x) > most) most = vec3_dot(n, x), high = x;
+        }
+    return vec3_sub(low, high);
+}
+
+/* The gap along the axis is at least this share of the distance of the sets. A clearance whose
+ * bracket is a thousandth wide needs no more. */
+#define GAP_SHARE (1 - 0x1p-14)
+
+/* Finds the axis along which the cells are farthest from what b sweeps, by GJK. False: these
+ * meet. */
+static bool find_axis(const piece_course *of, const piece_shadow *s, some_cells own, vec3 *n)
+{
+    swept_gap g = {.s = s, .own = own};
+    for (int k = 0; k < 2; ++k) {
+        const double w = k == 0 ? -1 : 1;
+        for (int i = 0; i < 3; ++i) {
+            const imp_model *way = &of->course.way[i];
+            g.way[k].x[i] = way->a + w * way->b[PARAMETER_T] + way->q[IMP_TT];
+        }
     }
+    vec3 axis = vec3_sub(piece_shadow_lowest(s, (vec3){{1, 0, 0}}), own.of[0].corner[0]);
+    if (!gjk_search(lowest_gap, &g, GAP_SHARE, &axis)) return false;
+    const double length = vec3_norm(axis);
+    *n = vec3_scale(axis, 1 / length);
+    return length > 0x1p-500 && length < INFINITY;
+}
+
+/* An axis is sought for cells that no plane of their own parts, unless that is too much work: GJK
+ * looks at all of the other surface some ten times. */
+enum { AXES_MOST = 1 << 18 };
+
+/* What two planes show together. */
+static void piece_view_meet(piece_view *view, const piece_view *other)
+{
+    if (other->is_apart || (!view->is_apart && other->lower > view->lower)) {
+        view->lower = other->lower;
+        view->hint = other->hint;
+    }
+    view->is_apart = view->is_apart || other->is_apart;
+    if (other->left.lo > view->left.lo) view->left.lo = other->left.lo;
+    if (other->left.hi < view->left.hi) view->left.hi = other->left.hi;
+    view->is_apart = view->is_apart || view->left.lo > view->left.hi;
+}
+
+static void try_cell(const piece_course *of, const piece_shadow *s, const piece_cell *cell,
+                     double gamma_clear, piece_view *one)
+{
+    const some_cells own = {cell, 1};
+    const time_window window = one->left;
+    piece_view view;
+    vec3 n;
+    for (int side = 0; side < 2 && !one->is_apart && across_cell(cell, side, &n); ++side) {
+        view = (piece_view){.left = window};
+        part_by(of, s, own, n, gamma_clear, &view);
+        piece_view_meet(one, &view);
+    }
+    if (one->is_apart || of->own->count * s->count > AXES_MOST || !find_axis(of, s, own, &n))
+        return;
+    view = (piece_view){.left = window};
+    part_by(of, s, own, n, gamma_clear, &view);
+    piece_view_meet(one, &view);
 }
 
 /* --- One plane for all pieces ----------------------------------------------------------------- */
@@ -203,43 +210,39 @@ enum { PIECES_AT_ONCE = 32 };
 
 /* About how far a plane with that normal is from b, all of a being behind it, at the middle of the
  * times. */
-static double about_beyond(const piece_course *of, const shadow *s, vec3 n)
+static double about_beyond(const piece_course *of, const piece_shadow *s, some_cells own, vec3 n)
 {
     const surface_course *c = &of->course;
-    const vec3 w = weights_of(c, n), way = {{c->way[0].a, c->way[1].a, c->way[2].a}};
-    double least = INFINITY, most = -INFINITY;
-    for (size_t k = 0; k < s->count; ++k)
-        if (vec3_dot(w, s->of[k].p) < least) least = vec3_dot(w, s->of[k].p);
-    for (size_t k = 0; k < 4 * of->own->count; ++k) {
-        const double here = vec3_dot(n, of->own->of[k / 4][k % 4]);
-        if (here > most) most = here;
-    }
+    const vec3 way = {{c->way[0].a, c->way[1].a, c->way[2].a}};
+    size_t nearest;
     const double at = c->spins ? vec3_dot(n, vec3_from(c->center)) : 0;
-    return least - most + at + vec3_dot(n, way) -
+    return piece_shadow_least(s, n, &nearest) - most_along(own, n) + at + vec3_dot(n, way) -
            c->wander * vec3_norm(vec3_cross(n, vec3_from(c->axis)));
 }
 
-/* Tries the plane of that piece which is farthest from b if all of a is behind it: side pieces of a
- * convex body have no plane of their own that parts them from what is in front of another. Adds
- * what it shows to *all. */
-static void try_together(const piece_course *of, const shadow *s, double gamma_clear,
+/* Tries one plane for all of a: of few pieces that of the one which is farthest from b if all of a
+ * is behind it, since side pieces of a convex body have no plane of their own that parts them from
+ * what is in front of another; else that which GJK finds. Adds what it shows to *all. */
+static void try_together(const piece_course *of, const piece_shadow *s, double gamma_clear,
                          const time_window *window, piece_view *all)
 {
     const size_t count = of->own->count;
+    const some_cells own = {of->own->of, count};
+    const bool is_small = count <= PIECES_AT_ONCE && of->other->count <= PIECES_AT_ONCE;
     piece_view view = {.left = *window};
     vec3 best = {{0, 0, 0}}, n;
     double most = 0;
-    if (count == 1 || count > PIECES_AT_ONCE || of->other->count > PIECES_AT_ONCE) return;
-    for (size_t k = 0; k < 2 * count; ++k) {
-        if (!across_piece(of->own->of[k / 2], (int)(k % 2), &n)) continue;
-        const double here = about_beyond(of, s, n);
+    if (count == 1) return;
+    for (size_t k = 0; k < 2 * count && is_small; ++k) {
+        if (!across_cell(&own.of[k / 2], (int)(k % 2), &n)) continue;
+        const double here = about_beyond(of, s, own, n);
         if (!(here > most)) continue;
         most = here, best = n;
         view.hint.piece[0] = k / 2;
     }
-    if (!(most > 0)) return;
-    part_by(of, s, of->own->of[0], 4 * count, best, gamma_clear, &view);
-    view.hint.is_known = true;
+    if (!(most > 0) && !find_axis(of, s, own, &best)) return;
+    part_by(of, s, own, best, gamma_clear, &view);
+    view.hint.is_known = most > 0;
     if (view.is_apart || view.lower > all->lower) *all = view;
 }
 
@@ -256,9 +259,9 @@ static vec3 middle_of(const vec3 corner[4])
 
 /* Many pieces have a corner that is nearest to a plane; the one whose middle is nearest to that of
  * the plane's piece faces it. Where the course spins, that depends on the time. */
-static void find_facing(const piece_course *of, const shadow *s, piece_hint *hint)
+static void find_facing(const piece_course *of, const piece_shadow *s, piece_hint *hint)
 {
-    const vec3 *own = of->own->of[hint->piece[0]], middle = middle_of(own);
+    const vec3 *own = of->own->of[hint->piece[0]].corner, middle = middle_of(own);
     const vec3 across = vec3_cross(vec3_sub(own[3], own[0]), vec3_sub(own[2], own[1]));
     const vec3 way = {{of->course.way[0].a, of->course.way[1].a, of->course.way[2].a}};
     const size_t near = hint->piece[1];
@@ -276,33 +279,97 @@ static void find_facing(const piece_course *of, const shadow *s, piece_hint *hin
         const double apart = vec3_norm(vec3_sub(middle_of(corner), middle));
         if (!(apart < best)) continue;
         best = apart;
-        hint->piece[1] = s->of[k].piece;
+        hint->piece[1] = s->of[k].cell;
     }
 }
 
+/* --- All pieces ------------------------------------------------------------------------------- */
+
+/* Tries what the type of a round piece knows of it. */
+static imp_code try_round(const piece_course *of, const surface *piece, double gamma_clear,
+                          const time_window *window, piece_view *one, imp_error *error)
+{
+    imp_code (*const more[])(const piece_course *, const surface *, double, const time_window *,
+                             piece_view *, imp_error *) = {piece_rings_cut, piece_ball_cut};
+    if (surface_inner_maps(piece) > 0) return IMP_SUCCESS;
+    for (int k = 0; k < 2 && !one->is_apart; ++k) {
+        piece_view found;
+        const imp_code code = more[k](of, piece, gamma_clear, window, &found, error);
+        if (code != IMP_SUCCESS) return code;
+        if (found.is_apart || found.lower > one->lower) *one = found;
+    }
+    return IMP_SUCCESS;
+}
+
+/* Tries the cells of one piece, then what its type knows of a round one. */
+static imp_code try_piece(const piece_course *of, const piece_shadow *s, size_t first, size_t end,
+                          double gamma_clear, const time_window *window, piece_view *view,
+                          imp_error *error)
+{
+    const piece_cell *cells = of->own->of;
+    *view = (piece_view){.is_apart = true, .left = *window, .lower = INFINITY};
+    for (size_t k = first; k < end && !piece_view_is_useless(view, window); ++k) {
+        piece_view one = {.left = *window};
+        try_cell(of, s, &cells[k], gamma_clear, &one);
+        one.hint.is_known = true;
+        one.hint.piece[0] = k;
+        piece_view_join(view, &one);
+    }
+    const bool is_round = cells[first].is_hoop || cells[first].slack > 0;
+    if (view->is_apart || !is_round) return IMP_SUCCESS;
+    return try_round(of, piece_of(of->a, of->own->piece[first]), gamma_clear, window, view, error);
+}
+
+/* The cell after the last one of the piece of that cell; the first one of it. */
+static size_t end_of_piece(const piece_corners *c, size_t k)
+{
+    const size_t piece = c->piece[k];
+    while (k < c->count && c->piece[k] == piece) ++k;
+    return k;
+}
+
+static size_t begin_of_piece(const piece_corners *c, size_t k)
+{
+    while (k > 0 && c->piece[k - 1] == c->piece[k]) --k;
+    return k;
+}
+
 /* Pieces are taken in a scattered order: one that touches ends it, wherever it lies. */
+static imp_code try_all(const piece_course *of, const piece_shadow *s, double gamma_clear,
+                        const time_window *window, piece_view *all, imp_error *error)
+{
+    const size_t n = of->own->count, half = n / 2; /* the step has no divisor in common with n */
+    const size_t step = n % 2 == 1 ? half : half % 2 == 1 ? half + 2 : half + 1;
+    for (size_t k = 0, at = 0; k < n; ++k, at = (at + step) % n) {
+        piece_view one;
+        if (begin_of_piece(of->own, at) != at) continue;
+        const imp_code code =
+            try_piece(of, s, at, end_of_piece(of->own, at), gamma_clear, window, &one, error);
+        if (code != IMP_SUCCESS) return code;
+        piece_view_join(all, &one);
+        if (piece_view_is_useless(all, window)) break;
+    }
+    return IMP_SUCCESS;
+}
+
 imp_code piece_planes_cut(const piece_course *of, double gamma_clear, const time_window *window,
                           piece_view *view, imp_error *error)
 {
-    shadow s;
-    const size_t n = of->own->count, half = n / 2; /* the step has no divisor in common with n */
-    const size_t step = n % 2 == 1 ? half : half % 2 == 1 ? half + 2 : half + 1;
+    piece_shadow s;
     piece_view all = {.is_apart = true, .left = *window, .lower = INFINITY};
     *view = (piece_view){.left = *window};
-    if (n == 0 || of->other->count == 0) return IMP_SUCCESS;
-    const imp_code code = take_shadow(of, &s, error);
+    if (of->own->count == 0 || of->other->count == 0) return IMP_SUCCESS;
+    imp_code code = piece_shadow_take(of, &s, error);
     if (code != IMP_SUCCESS) return code;
-    for (size_t k = 0, at = 0; k < n; ++k, at = (at + step) % n) {
-        piece_view one = {.left = *window};
-        try_piece(of, &s, of->own->of[at], gamma_clear, &one);
-        one.hint.is_known = true;
-        one.hint.piece[0] = at;
-        piece_view_join(&all, &one);
-        if (piece_view_is_useless(&all, window)) break;
-    }
+    code = try_all(of, &s, gamma_clear, window, &all, error);
     if (!piece_view_is_useless(&all, window)) *view = all;
     if (!view->is_apart) try_together(of, &s, gamma_clear, window, view);
-    if (view->hint.is_known) find_facing(of, &s, &view->hint);
-    arena_store_free_room(of->other->store, s.of);
-    return IMP_SUCCESS;
+    piece_hint *hint = &view->hint;
+    if (hint->is_known) {
+        find_facing(of, &s, hint);
+        hint->piece[0] = of->own->piece[hint->piece[0]];
+        hint->piece[1] = of->other->piece[hint->piece[1]];
+    }
+    piece_shadow_clear(&s);
+    return code;
 }

@@ -2,7 +2,7 @@
  * SPDX-License-Identifier: Apache-2.0 */
 #include <config.h>
 
-#include "core/bounds/piece_sides.h"
+#include "core/bounds/piece_shadow.h"
 
 #include <impinge/model.h>
 
@@ -48,7 +48,7 @@ static vec3 part_across(vec3 axis, vec3 x)
 enum { RING_ROUNDING = 64 };
 _Static_assert(1 + 8 + 4 + 8 + 16 + 8 <= RING_ROUNDING, "rounding of a ring");
 
-static ring ring_of(const line_frame *f, const vec3 z[4])
+static ring ring_of_flat(const line_frame *f, const vec3 z[4])
 {
     const vec3 normal = vec3_cross(vec3_sub(z[3], z[0]), vec3_sub(z[2], z[1]));
     vec3 from[4], middle = {{0, 0, 0}};
@@ -73,6 +73,27 @@ static ring ring_of(const line_frame *f, const vec3 z[4])
             if (here < least) least = here;
         }
         if (least > r.beside[0]) r.beside[0] = least;
+    }
+    return r;
+}
+
+/* Lemma. A hoop's point z is sum w_k (z_k + r_k e_k), e_k across the hoop's axis. k.e_k is at most
+ * the sine s between the axes, so that the place of each term along the line is that of z_k but for
+ * r_k s; and the term is no farther beside the line than q(z_k) + r_k, hence z, q being convex.
+ * Rounding: a place as of rings, 21; radius 1, sine 16, product and sums 3. */
+_Static_assert(21 + 1 + 16 + 3 <= RING_ROUNDING, "rounding of a hoop");
+static ring ring_of(const line_frame *f, const piece_cell *z)
+{
+    ring r = {{INFINITY, -INFINITY}, {0, 0}};
+    if (!z->is_hoop) return ring_of_flat(f, z->corner);
+    const double sine = vec3_norm(vec3_cross(z->axis, f->axis));
+    for (int k = 0; k < 4; ++k) {
+        const vec3 from = vec3_sub(z->corner[k], f->center);
+        const double along = vec3_dot(from, f->axis);
+        const double beside = vec3_norm(vec3_cross(from, f->axis)), radius = z->radius[k];
+        if (along - radius * sine < r.along[0]) r.along[0] = along - radius * sine;
+        if (along + radius * sine > r.along[1]) r.along[1] = along + radius * sine;
+        if (beside + radius > r.beside[1]) r.beside[1] = beside + radius;
     }
     return r;
 }
@@ -143,18 +164,20 @@ static drift drift_of(const surface_course *c, const line_frame *f)
     return d;
 }
 
-static vec3 place_of(const surface_course *c, const drift *d, vec3 y)
+/* A cell as a sees it at the middle of the times. Its slack then has what a hoop loses by the turn
+ * (piece_shadow_seen). */
+static piece_cell place_of(const piece_course *of, const drift *d, const piece_cell *y)
 {
-    vec3 z;
-    for (int i = 0; i < 3; ++i)
-        z.x[i] = vec3_dot(vec3_from(c->turn[i]), y) + c->shift[i] + d->at.x[i];
+    piece_cell z = piece_shadow_seen(of, y);
+    for (int j = 0; j < 4; ++j) z.corner[j] = vec3_add(z.corner[j], d->at);
     return z;
 }
 
-static bool find_frame(const piece_course *of, line_frame *f, imp_status *status)
+static bool find_frame(const piece_course *of, const surface *own, line_frame *f,
+                       imp_status *status)
 {
     bool has;
-    *status = surface_line_of(of->a, &of->course, f->center.x, f->axis.x, &has);
+    *status = surface_line_of(own, &of->course, f->center.x, f->axis.x, &has);
     if (*status != IMP_STATUS_OK || !has) return false;
     f->side = any_across(f->axis);
     return true;
@@ -162,8 +185,8 @@ static bool find_frame(const piece_course *of, line_frame *f, imp_status *status
 
 /* Roundings of `off`: sums 7. */
 PAD_COVERS(16, 7);
-imp_code piece_rings_cut(const piece_course *of, double gamma_clear, const time_window *window,
-                         piece_view *view, imp_error *error)
+imp_code piece_rings_cut(const piece_course *of, const surface *own, double gamma_clear,
+                         const time_window *window, piece_view *view, imp_error *error)
 {
     const imp_region over =
         region_make((double[3]){-1, -1, of->times.lo[2]}, (double[3]){1, 1, of->times.hi[2]});
@@ -172,8 +195,8 @@ imp_code piece_rings_cut(const piece_course *of, double gamma_clear, const time_
     imp_status status;
     piece_view all = {.is_apart = true, .left = *window, .lower = INFINITY};
     *view = (piece_view){.left = *window};
-    if (!find_frame(of, &f, &status))
-        return status == IMP_STATUS_OK ? IMP_SUCCESS : distance_fault(of->a, status, error);
+    if (!find_frame(of, own, &f, &status))
+        return status == IMP_STATUS_OK ? IMP_SUCCESS : distance_fault(own, status, error);
     const drift d = drift_of(c, &f);
     const double size =
         of->other->reach + vec3_norm(vec3_from(c->shift)) + vec3_norm(d.at) + vec3_norm(f.center);
@@ -181,15 +204,14 @@ imp_code piece_rings_cut(const piece_course *of, double gamma_clear, const time_
                                         of->other->slack + RING_ROUNDING * UNIT_ROUNDOFF * size,
                                     16);
     for (size_t k = 0; k < of->other->count && !piece_view_is_useless(&all, window); ++k) {
-        vec3 z[4];
         imp_model point[3], g;
         piece_view one = {.left = *window};
-        for (int j = 0; j < 4; ++j) z[j] = place_of(c, &d, of->other->of[k][j]);
-        const ring r = ring_of(&f, z);
-        points_of(&f, &over, &r, d.along, off, point);
-        status = surface_distance(of->a, &over, 0, point, &g);
+        const piece_cell z = place_of(of, &d, &of->other->of[k]);
+        const ring r = ring_of(&f, &z);
+        points_of(&f, &over, &r, d.along, sum_upper(off, z.slack), point);
+        status = surface_distance(own, &over, 0, point, &g);
         if (status != IMP_STATUS_OK && status != IMP_STATUS_UNBOUNDED)
-            return distance_fault(of->a, status, error);
+            return distance_fault(own, status, error);
         if (status == IMP_STATUS_OK)
             one.is_apart =
                 distance_cut_heights(&g, 2, &of->times, gamma_clear, &one.left, &one.lower);
@@ -203,10 +225,10 @@ imp_code piece_rings_cut(const piece_course *of, double gamma_clear, const time_
 
 /* Lemma. S(t) about the course's line leaves the places (p, q) of z as they are; k.way is added to
  * p. Two points are at least as far apart as their places, and the ball's center is radius away
- * from its points at most. Rounding: as of rings, for both; differences and root 4. */
-_Static_assert(2 * (1 + 8 + 4 + 8 + 16 + 8) + 4 <= 2 * RING_ROUNDING, "rounding beside a ball");
-imp_code piece_ball_cut(const piece_course *of, double gamma_clear, const time_window *window,
-                        piece_view *view, imp_error *error)
+ * from its points at most. Rounding: as of rings, for both; differences and root 5. */
+_Static_assert(2 * (1 + 8 + 4 + 8 + 16 + 8) + 5 <= 2 * RING_ROUNDING, "rounding beside a ball");
+imp_code piece_ball_cut(const piece_course *of, const surface *own, double gamma_clear,
+                        const time_window *window, piece_view *view, imp_error *error)
 {
     const surface_course *c = &of->course;
     const line_frame f = {.center = vec3_from(c->center), .axis = vec3_from(c->axis)};
@@ -215,8 +237,8 @@ imp_code piece_ball_cut(const piece_course *of, double gamma_clear, const time_w
     vec3 at;
     *view = (piece_view){.left = *window};
     if (!c->spins) return IMP_SUCCESS;
-    const imp_status status = surface_bare_ball(of->a, &of->times, at.x, &radius);
-    if (status != IMP_STATUS_OK) return distance_fault(of->a, status, error);
+    const imp_status status = surface_bare_ball(own, &of->times, at.x, &radius);
+    if (status != IMP_STATUS_OK) return distance_fault(own, status, error);
     if (!(radius < INFINITY)) return IMP_SUCCESS;
     for (int i = 0; i < 3; ++i) axis[i] = imp_num(f.axis.x[i]);
     const imp_model way = imp_dot3(axis, c->way);
@@ -225,14 +247,15 @@ imp_code piece_ball_cut(const piece_course *of, double gamma_clear, const time_w
     const double size = of->other->reach + vec3_norm(vec3_from(c->shift)) + vec3_norm(f.center) +
                         vec3_norm(at) + imp_interval_mag(imp_model_range(&way));
     for (size_t k = 0; k < of->other->count; ++k) {
-        vec3 z[4];
-        for (int j = 0; j < 4; ++j) z[j] = place_of(c, &(drift){.across = 0}, of->other->of[k][j]);
-        const ring r = ring_of(&f, z);
+        const piece_cell z = place_of(of, &(drift){.across = 0}, &of->other->of[k]);
+        const ring r = ring_of(&f, &z);
         const double above = p - (r.along[1] + way.hi), below = r.along[0] + way.lo - p;
         const double along = above > below ? above : below;
         const double outside = q - r.beside[1], inside = r.beside[0] - q;
         const double beside = outside > inside ? outside : inside;
-        const double d = sqrt((along > 0 ? along * along : 0) + (beside > 0 ? beside * beside : 0));
+        const double all =
+            sqrt((along > 0 ? along * along : 0) + (beside > 0 ? beside * beside : 0));
+        const double d = all - z.slack;
         if (!(d >= lower)) lower = d;
     }
     const double off = padded_upper(radius + c->off + c->wander + of->other->slack +

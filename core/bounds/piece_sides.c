@@ -11,81 +11,6 @@
 #include "core/base/status.h"
 #include "core/surface/course_line.h"
 
-/* --- Corners of pieces ------------------------------------------------------------------------ */
-
-/* Lemma. a + b_u s + b_v r + q_uv s r is bilinear: over the square a convex combination of its
- * values at the four corners. What else a model has is at most e + |q_uu| + |q_vv|, coordinate by
- * coordinate. Roundings: 3 sums of a corner, 8 of the slack, squares, sums and root of it. */
-enum { CORNER_ROUNDING = 8 };
-PAD_COVERS(16, 8 + 3 + 2);
-
-static bool take_piece(const surface *piece, const time_window *times, vec3 corner[4],
-                       double *slack, imp_status *status)
-{
-    imp_model x[3];
-    double lo[3], hi[3], sum = 0;
-    surface_domain(piece, lo, hi);
-    lo[2] = times->lo, hi[2] = times->hi;
-    const imp_region all = region_make(lo, hi);
-    *status = surface_include_inner(piece, &all, surface_inner_maps(piece), x);
-    if (*status != IMP_STATUS_OK) return false;
-    for (int i = 0; i < 3; ++i) {
-        const imp_model *m = &x[i];
-        const double uv = m->q[IMP_UV],
-                     size = fabs(m->a) + fabs(m->b[0]) + fabs(m->b[1]) + fabs(uv);
-        const double in_time = fabs(m->b[2]) + fabs(m->q[IMP_UT]) + fabs(m->q[IMP_VT]) +
-                               fabs(m->q[IMP_TT]); /* 0, unless the type contradicts itself */
-        const double more = m->e + fabs(m->q[IMP_UU]) + fabs(m->q[IMP_VV]) + in_time +
-                            CORNER_ROUNDING * UNIT_ROUNDOFF * size;
-        if ((m->depends >> PARAMETER_T & 1) != 0 || !(size + more < 0x1p200)) return false;
-        sum += more * more;
-        for (int k = 0; k < 4; ++k) {
-            const double s = k / 2 == 0 ? -1 : 1, r = k % 2 == 0 ? -1 : 1;
-            corner[k].x[i] = m->a + s * m->b[0] + r * m->b[1] + s * r * uv;
-        }
-    }
-    *slack = padded_upper(sqrt(sum), 16) + ROOT_UNDERFLOW;
-    return true;
-}
-
-static const surface *piece_at(const surface *s, size_t k)
-{
-    return surface_piece_count(s) > 0 ? surface_piece(s, k) : s;
-}
-
-imp_code piece_corners_take(const surface *s, const time_window *times, size_t most,
-                            arena_store *store, piece_corners *corners, bool *known,
-                            imp_error *error)
-{
-    const size_t all = surface_piece_count(s) > 0 ? surface_piece_count(s) : 1;
-    *corners = (piece_corners){.store = store, .count = all < most ? all : most};
-    *known = false;
-    corners->of = arena_store_room(store, corners->count * sizeof *corners->of);
-    if (corners->of == NULL) return error_set_memory(error);
-    for (size_t k = 0; k < corners->count; ++k) {
-        const surface *piece = piece_at(s, k * all / corners->count);
-        double slack;
-        imp_status status;
-        if (!take_piece(piece, times, corners->of[k], &slack, &status))
-            return status == IMP_STATUS_OK || status == IMP_STATUS_UNBOUNDED
-                       ? IMP_SUCCESS
-                       : distance_fault(piece, status, error);
-        if (slack > corners->slack) corners->slack = slack;
-        for (int j = 0; j < 4; ++j) {
-            const double size = vec3_norm(corners->of[k][j]);
-            if (size > corners->reach) corners->reach = size;
-        }
-    }
-    *known = true;
-    return IMP_SUCCESS;
-}
-
-void piece_corners_clear(piece_corners *corners)
-{
-    arena_store_free_room(corners->store, corners->of);
-    corners->of = NULL;
-}
-
 /* --- Both sides ------------------------------------------------------------------------------- */
 
 typedef struct piece_search {
@@ -96,7 +21,6 @@ typedef struct piece_search {
     piece_corners whole[2];   /* of all pieces, where find_bare took them; else none */
 } piece_search;
 
-/* By the planes of a side's pieces, then by what its type knows of it as a whole. */
 static imp_code cut_side(const piece_search *q, const piece_corners corners[2], int side,
                          const time_window *window, piece_view *view, imp_error *error)
 {
@@ -108,24 +32,13 @@ static imp_code cut_side(const piece_search *q, const piece_corners corners[2], 
         .other = &corners[!side],
         .course = q->course[side],
         .times = region_make((double[3]){-1, -1, q->times.lo}, (double[3]){1, 1, q->times.hi})};
-    const imp_code code = piece_planes_cut(&of, q->gamma_clear, window, view, error);
-    const bool is_round = surface_piece_count(own) == 0 && surface_inner_maps(own) == 0;
-    if (code != IMP_SUCCESS || view->is_apart || !is_round) return code;
-    imp_code (*const more[])(const piece_course *, double, const time_window *, piece_view *,
-                             imp_error *) = {piece_rings_cut, piece_ball_cut};
-    for (int k = 0; k < 2 && !view->is_apart; ++k) {
-        piece_view found;
-        const imp_code result = more[k](&of, q->gamma_clear, window, &found, error);
-        if (result != IMP_SUCCESS) return result;
-        if (found.is_apart || found.lower > view->lower) *view = found;
-    }
-    return IMP_SUCCESS;
+    return piece_planes_cut(&of, q->gamma_clear, window, view, error);
 }
 
 /* Whether the corners of all pieces, and no more than `most`, are there already. */
 static bool has_corners(const piece_search *q, int side, size_t most)
 {
-    return q->whole[side].of != NULL && q->whole[side].count <= most;
+    return q->whole[side].of != NULL && surface_piece_count(q->of->root[side]->surface) <= most;
 }
 
 /* Cuts by each side with at most `most` pieces of either. */

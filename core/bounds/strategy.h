@@ -54,8 +54,9 @@
  *   ball's center           a node has all of a ball (distance_     its distance, less the radius,
  *                           ball.c); ahead of other distances       is that of the whole ball
  *   planes and circles of   two roots, one of many pieces, once     a mesh in a mesh, in a bore, on
- *   pieces                  for each search (piece_sides.h); some   a table: all pieces are parted
- *                           pieces first                            by one look, at all times
+ *   pieces                  for each search (piece_sides.h); some   a table, a can in a tube: all
+ *                           pieces first                            pieces are parted by one look,
+ *                                                                   at all times
  *   halves left out         both nets are made, one may be tighter  heights of halves cost a tenth
  *                           (net_halves.h)                          of a test
  *   witness on nets         nets are off by little beside gamma     no surface is evaluated on the

@@ -6,7 +6,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "core/bounds/piece_sides.h"
+#include "core/bounds/piece_shadow.h"
 #include "core/common/random.h"
 #include "core/scene/scene.h"
 #include "tests/support/query_helpers.h"
@@ -61,7 +61,14 @@ static const char *const shapes[] = {"box size=2,1,0.6 center=0,0,0.8",
                                      "plane origin=-2,-2,0.7 edge_u=4,0,0 edge_v=0,4,0",
                                      "plane origin=1.3,-2,-2 edge_u=0,4,0 edge_v=0,0,4",
                                      "sphere radius=0.5 center=1.9,0.1,0.2",
-                                     "sphere radius=2"};
+                                     "sphere radius=2",
+                                     "cylinder radius=1.3 height=2 ends=true",
+                                     "cylinder radius=0.4 height=0.5 center=1.6,0.1,0 ends=true",
+                                     "cylinder radius=0.3 height=2 center=0,0,1.6 ends=true",
+                                     "cylinder radius=0.3 height=2 ! rotate axis=1,0,0 angle=1",
+                                     "cone radius=0.5 height=0.6 center=0,0,0.6 ends=true",
+                                     "torus major_radius=0.5 minor_radius=0.2 center=0,0,0.8",
+                                     "disc radius=0.7 center=0.1,0,0.6"};
 enum { SHAPES = sizeof shapes / sizeof *shapes };
 
 static void add_turn(uint64_t *random, char *text)
@@ -413,6 +420,89 @@ START_TEST(points_are_where_the_course_says)
 }
 END_TEST
 
+/* --- What a surface sweeps -------------------------------------------------------------------- */
+
+enum { NORMALS = 8 };
+
+/* n.x of b's point as a sees it, less what the shadow of b says of all its points: no less than 0.
+ * Returns it. */
+static double above_shadow(const trial *y, const piece_course *of, const piece_shadow *shadow,
+                           vec3 n, double t, double w, uint64_t *random)
+{
+    const surface_course *c = &of->course;
+    const size_t piece = random_bits(random) % piece_count(of->b);
+    const double at[2] = {random_fraction(random), random_fraction(random)};
+    double world[3], frame[4][3], x[3], off = c->off + of->other->slack + 1e-11;
+    size_t cell = SIZE_MAX;
+    place_at(piece_at(of->b, piece), at, t, world);
+    frame_at(of->a, t, frame);
+    take_back((const double(*)[3])frame, world, x);
+    double height = 0;
+    for (int i = 0; i < 3; ++i) {
+        const imp_model *way = &c->way[i];
+        const double moved = way->a + way->b[2] * w + way->q[IMP_TT] * w * w;
+        height += n.x[i] * (x[i] - moved - (c->spins ? c->center[i] : 0));
+        off += way->e;
+    }
+    if (c->spins) off += c->wander * vec3_norm(vec3_cross(n, vec3_from(c->axis)));
+    const double above = height - piece_shadow_least(shadow, n, &cell);
+    ck_assert_uint_lt(cell, of->other->count);
+    ck_assert_msg(above >= -off, "%s | %s at %.17g: %g below", y->text[0], y->text[1], t, -above);
+    return above;
+}
+
+static void judge_shadow(const trial *y, int side, uint64_t *random, int hoops[2], int *near)
+{
+    piece_corners corners[2];
+    imp_error error;
+    bool known[2];
+    for (int k = 0; k < 2; ++k)
+        ck_assert_int_eq(
+            piece_corners_take(y->s[k], &y->times, SIZE_MAX, NULL, &corners[k], &known[k], &error),
+            IMP_SUCCESS);
+    const double lo[3] = {-1, -1, y->times.lo}, hi[3] = {1, 1, y->times.hi};
+    piece_course of = {y->s[side],      y->s[!side], &corners[side],
+                       &corners[!side], {0},         region_make(lo, hi)};
+    const double far = corners[!side].reach + corners[!side].slack;
+    const imp_model bare[3] = {imp_between(-far, far), imp_between(-far, far),
+                               imp_between(-far, far)};
+    ck_assert_int_eq(surface_course_of(of.a, of.b, bare, &of.times, of.times.c[2], &of.course),
+                     IMP_STATUS_OK);
+    piece_shadow shadow;
+    const bool asked = known[0] && known[1] && of.course.is_known;
+    if (asked) ck_assert_int_eq(piece_shadow_take(&of, &shadow, &error), IMP_SUCCESS);
+    for (size_t k = 0; k < corners[!side].count && asked; ++k)
+        hoops[of.course.spins] += corners[!side].of[k].is_hoop;
+    for (int k = 0; k < NORMALS && asked; ++k) {
+        vec3 n = {{part(random), part(random), part(random)}};
+        n = vec3_scale(n, 1 / vec3_norm(n));
+        for (int j = 0; j < POINTS; ++j) {
+            const double w = part(random);
+            const double above =
+                above_shadow(y, &of, &shadow, n, of.times.c[2] + w * of.times.d[2], w, random);
+            *near += above < 1e-2 * shadow.reach;
+        }
+    }
+    if (asked) piece_shadow_clear(&shadow);
+    for (int k = 0; k < 2; ++k) piece_corners_clear(&corners[k]);
+}
+
+/* Seen from either surface, which turns about some line, shifts, or rests. */
+START_TEST(no_point_is_beyond_what_a_surface_sweeps)
+{
+    uint64_t random = suite_seed();
+    int hoops[2] = {0, 0}, near = 0;
+    for (int n = 0; n < suite_times_at_least(SCENES); ++n) {
+        trial y;
+        trial_begin(&y, &random);
+        for (int side = 0; side < 2; ++side) judge_shadow(&y, side, &random, hoops, &near);
+        trial_end(&y);
+    }
+    ck_assert_msg(hoops[0] > 0 && hoops[1] > 0 && near > 0, "%d and %d hoops, %d near", hoops[0],
+                  hoops[1], near);
+}
+END_TEST
+
 /* --- Far along a line ------------------------------------------------------------------------- */
 
 enum { FAR_SCENES = 40, STAR_RAYS = 7 };
@@ -469,7 +559,8 @@ int main(void)
 {
     const TTest *const tests[] = {
         no_points_are_nearer_than_is_claimed_of_all_pieces, claims_that_are_too_large_are_found,
-        points_are_where_the_course_says, what_is_across_a_line_is_told_far_along_it};
+        points_are_where_the_course_says, no_point_is_beyond_what_a_surface_sweeps,
+        what_is_across_a_line_is_told_far_along_it};
     return suite_main_with("piece sides", tests, sizeof tests / sizeof tests[0], open_registry,
                            close_registry);
 }

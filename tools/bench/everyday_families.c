@@ -57,6 +57,8 @@
     "0.70710678118654757:0.70710678118654757 0.38268343236508977:0.92387953251128674"
 /* A tube of 64 sides, whose sides are 1 from its axis. */
 #define TUBE "op 64 1.0012060077811093:-1 1.0012060077811093:1"
+/* A tube of 32 sides, closed by rings at its ends; its inner sides are 1 from its axis. */
+#define RING "32 1.5:-0.5 1.5:0.5 1.0048385723763114:0.5 1.0048385723763114:-0.5 1.5:-0.5"
 #define SCREW "{'type':'screw','pitch':0.5,'rate':1}"
 #define THREAD(RADIUS, HEIGHT) "{'type':'thread','radius':" RADIUS ",'height':" HEIGHT "}"
 #define THREADS(RADIUS, HEIGHT)                                                                    \
@@ -304,4 +306,19 @@ const everyday_family everyday_families[] = {
      CAN("~0.5", "0.6", "0,0,0"), CRANK_TABLE "," PLACE, BOND_NONE, 0, false, FIVE, 50, "", ""},
     {"door that swings", FLOOR, PLACE, BOX("1,0.1,2", "0.6,0,@1"), SWING(Z_AXIS) "," SAME_PLACE,
      BOND_NONE, 0, false, FIVE, 50, "", ""},
+    /* flat sides along each other */
+    {"shaft of 32 sides in a closed tube", LATHE("op " RING), "", LATHE("p 32 ~1:-0.7 ~1:0.7"),
+     TURN(Z_AXIS, "3"), BOND_NONE, 0, false, "1235", 200, "", ""},
+    {"shaft of 32 sides in a closed tube, turned", LATHE("oi " RING), "",
+     LATHE("i 32 ~1:-0.7 ~1:0.7"), TURN(INCLINED, "3") "," MOVE("-0.1,0.2,0.2"), BOND_NONE, 0,
+     false, "1235", 200, "", ""},
+    {"shaft of 32 sides in a can", CAN("1", "2", "0,0,0"), TUMBLE, LATHE("p 32 ~1:-0.5 ~1:0.5"),
+     TURN(Z_AXIS, "3") "," MOVE("0,0,0.2"), BOND_PARENT, 0, false, "1235", 50, "", ""},
+    {"can slides and spins in a bore of 64 sides", LATHE(TUBE), "", CAN("~1", "1.5", "0,0,0"),
+     TURN(Z_AXIS, "5") "," MOVE("0,0,0.2"), BOND_NONE, 0, false, "1235", 50, "", ""},
+    {"can whirls in a bore of 64 sides", LATHE(TUBE), "", CAN("0.8", "1.5", "0,0,0"),
+     TURN(Z_AXIS, "20") "," PUT("~0.2,0,0") "," TURN(Z_AXIS, "2"), BOND_NONE, 0, false, "1235", 600,
+     "", ""},
+    {"balls of flat sides beside each other", LATHE(FOLIAGE), TURN(Z_AXIS, "1"), LATHE(FOLIAGE),
+     PUT("@2,0,0"), BOND_NONE, 0, false, "1235", 200, "", ""},
     {NULL, "", "", "", "", BOND_NONE, 0, false, "", 0, "", ""}};
