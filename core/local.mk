@@ -164,7 +164,8 @@ core_bounds = \
     core/bounds/difference.c core/bounds/difference.h \
     core/bounds/distance.c core/bounds/distance.h \
     core/bounds/piece_sides.c core/bounds/piece_sides.h \
-    core/bounds/piece_corners.c core/bounds/piece_planes.c \
+    core/bounds/piece_corners.c core/bounds/piece_parting.c \
+    core/bounds/piece_planes.c core/bounds/piece_planes.h \
     core/bounds/piece_shadow.c core/bounds/piece_shadow.h core/bounds/piece_rings.c \
     core/bounds/distance_ball.c core/bounds/distance_sides.c \
     core/bounds/distance_start.c \
