@@ -40,8 +40,10 @@ core_base = \
     core/base/union_find.c core/base/union_find.h
 
 core_surface = \
+    core/surface/aside.c core/surface/aside.h \
     core/surface/carried.c core/surface/carried.h \
     core/surface/clocked.c core/surface/clocked.h \
+    core/surface/commute.c core/surface/commute.h \
     core/surface/formula_text.c core/surface/formula_text.h \
     core/surface/held.c core/surface/held.h core/surface/held_place.c \
     core/surface/instance.c core/surface/instance.h \
@@ -208,6 +210,7 @@ core_broad_phase = \
     core/broad_phase/candidate.c core/broad_phase/candidate.h \
     core/broad_phase/candidates.c core/broad_phase/candidates.h \
     core/broad_phase/candidates_part.c \
+    core/broad_phase/collect_aside.c \
     core/broad_phase/collect_frames.c core/broad_phase/collect_glances.c \
     core/broad_phase/collect_half_planes.c core/broad_phase/collect_holds.c \
     core/broad_phase/frame_list.h \

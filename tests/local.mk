@@ -39,6 +39,7 @@ check_suites = \
     tests/unit/test_slips \
     tests/unit/test_slip_pairs \
     tests/unit/test_slip_planes \
+    tests/unit/test_aside \
     tests/unit/test_held \
     tests/unit/test_glances \
     tests/unit/test_screw_slips \
@@ -549,6 +550,8 @@ tests_unit_test_alloc_failure_SOURCES = tests/unit/test_alloc_failure.c tests/su
 tests_unit_test_alloc_failure_LDFLAGS = $(alloc_failure_ldflags)
 tests_unit_test_linked_in_SOURCES = tests/unit/test_linked_in.c tests/support/alloc_failure.c
 tests_unit_test_linked_in_LDFLAGS = $(alloc_failure_ldflags)
+tests_unit_test_aside_SOURCES = tests/unit/test_aside.c tests/support/alloc_failure.c
+tests_unit_test_aside_LDFLAGS = $(alloc_failure_ldflags)
 tests_unit_test_held_SOURCES = tests/unit/test_held.c tests/support/alloc_failure.c
 tests_unit_test_held_LDFLAGS = $(alloc_failure_ldflags)
 tests_unit_test_set_values_SOURCES = tests/unit/test_set_values.c tests/support/alloc_failure.c

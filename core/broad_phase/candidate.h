@@ -17,6 +17,7 @@ typedef struct candidate {
     size_t body, surface;
     size_t left_out;   /* number of the surface's last maps that its tree leaves out */
     held_maps held;    /* its first maps that its tree holds at one moment */
+    maps_aside aside;  /* further maps that its tree leaves out */
     double eval_error; /* of evaluated points, about; < 0: not measured yet; length */
     size_t still_maps; /* once measured: surface_still_maps, if it has distances */
     bool moves;        /* once measured: a point was seen to move; false if it has pieces */

@@ -36,6 +36,7 @@ static candidate *own_candidate(candidate *slot, const candidate *from, imp_stat
                         .surface = from->surface,
                         .left_out = from->left_out,
                         .held = from->held,
+                        .aside = from->aside,
                         .eval_error = -1};
     if (from->half != NULL) {
         slot->half = arena_store_room(NULL, sizeof *slot->half); /* its list has no store */

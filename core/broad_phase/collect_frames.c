@@ -73,7 +73,8 @@ static bool any_has_frame(const collection *all)
     for (size_t k = 0; k < list->pair_count && !any; ++k)
         any = motion_of(&list->pairs[k]) > 0 || may_turn_within(all, &list->pairs[k]) ||
               frames_may_have_half_planes(all, &list->pairs[k]) ||
-              frames_may_be_held(all, &list->pairs[k]);
+              frames_may_be_held(all, &list->pairs[k]) ||
+              frames_may_set_aside(all, &list->pairs[k]);
     return any;
 }
 
@@ -85,6 +86,7 @@ static bool are_equal(const frame *x, const surface_view *y)
     const double moment = x->view.moment;
     return x->made.half == NULL && x->view.left_out == y->left_out &&
            held_maps_are_equal(x->view.held, y->held) &&
+           maps_aside_are_equal(x->view.aside, y->aside) &&
            (moment == y->moment || (isnan(moment) && isnan(y->moment)));
 }
 
@@ -99,7 +101,8 @@ imp_code frames_find(collection *all, frame_list *frames, const candidate *c,
     *made = (frame){
         .of = of, .next = frames->first[of], .view = *view, .made = *c, .seen = {.from = INFINITY}};
     bool exists = true;
-    if (view->left_out != c->left_out || view->held.count > 0 || !isnan(view->moment)) {
+    if (view->left_out != c->left_out || view->held.count > 0 || view->aside.which != 0 ||
+        !isnan(view->moment)) {
         if (collection_must_end(all)) return IMP_SUCCESS;
         const imp_code code = collection_make_tree(all, view, &made->made, &exists, error);
         if (code != IMP_SUCCESS) return code;
@@ -160,7 +163,8 @@ static imp_code find_slip(collection *all, candidate *const side[2], const time_
     return surface_set_code(status, error);
 }
 
-/* Gives a pair that only turns within itself trees of one moment. *found: their slip, or 0. */
+/* Gives a pair that only turns within itself trees of one moment, and adds what that slips to
+ * *found. */
 static imp_code rest_pair(collection *all, frame_list *frames, size_t k, double *found,
                           imp_error *error)
 {
@@ -177,6 +181,7 @@ static imp_code rest_pair(collection *all, frame_list *frames, size_t k, double 
     if (!all->may_halve && frames_have_two_lines(frames, k)) return IMP_SUCCESS;
     candidate *const side[2] = {&frames->at[of_pair[0]].made, &frames->at[of_pair[1]].made};
     code = find_slip(all, side, &times, &slip, error);
+    slip = sum_upper(slip, *found);
     if (code != IMP_SUCCESS || !(slip <= all->slip_most)) return code;
     *found = slip;
     for (int j = 0; j < 2 && code == IMP_SUCCESS; ++j) {
@@ -202,11 +207,16 @@ static imp_code find_frames(collection *all, frame_list *frames, bool *done, imp
         *done = k % PAIRS_PER_CHECK != PAIRS_PER_CHECK - 1 || !collection_must_end(all);
         for (int side = 0; side < 2 && *done && code == IMP_SUCCESS; ++side) {
             const candidate *c = p->side[side];
-            const surface_view view = {c->body, c->surface, c->left_out + motion, {0, 0}, NAN};
+            const surface_view view = {c->body, c->surface, c->left_out + motion,
+                                       {0, 0},  {0, 0},     NAN};
             code = frames_find(all, frames, c, &view, &frames->of_pair[k][side], error);
             *done = frames->of_pair[k][side] != NONE;
         }
         double slip = 0;
+        if (code == IMP_SUCCESS && *done && frames_may_set_aside(all, p)) {
+            code = frames_set_aside(all, frames, k, &slip, error);
+            *done = frames->of_pair[k][0] != NONE && frames->of_pair[k][1] != NONE;
+        }
         if (code == IMP_SUCCESS && *done && may_turn_within(all, p)) {
             code = rest_pair(all, frames, k, &slip, error);
             *done = frames->of_pair[k][0] != NONE && frames->of_pair[k][1] != NONE;

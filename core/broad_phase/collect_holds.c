@@ -74,7 +74,7 @@ imp_code frames_hold_pair(collection *all, frame_list *frames, size_t k, double 
     double sum = 0;
     for (int side = 0; side < 2 && code == IMP_SUCCESS; ++side) {
         frame *f = &frames->at[of_pair[side]];
-        if (!isnan(f->view.moment)) return IMP_SUCCESS;
+        if (!isnan(f->view.moment) || f->view.aside.which != 0) return IMP_SUCCESS;
         code = look(all, f, error);
         if (code == IMP_SUCCESS && f->may_hold.count > 0)
             code = slides_along(all, f, &frames->at[of_pair[!side]], &times, &slides[side], error);

@@ -29,7 +29,8 @@ static bool plan_of(const collection *all, const surface_view *view, tree_plan *
                         .t_end = hi[2] < options->t_end ? hi[2] : options->t_end,
                         .audit = options->audit ? bound_audit_run : NULL,
                         .left_out = view->left_out,
-                        .held = view->held};
+                        .held = view->held,
+                        .aside = view->aside};
     if (!isnan(view->moment)) plan->t_start = plan->t_end = view->moment;
     return plan->t_start <= plan->t_end;
 }
@@ -53,7 +54,7 @@ static void make_trees(void *of, size_t task)
         tree_plan plan;
         tree *t;
         if (collection_may_end(all, 0)) return;
-        const surface_view view = {s->body, s->surface, all->common_motion, {0, 0}, NAN};
+        const surface_view view = {s->body, s->surface, all->common_motion, {0, 0}, {0, 0}, NAN};
         if (!plan_of(all, &view, &plan)) continue;
         if (scene_tree(all->scene, s->body, s->surface, &plan, all->with_roots, &t, &s->growth,
                        NULL) == IMP_SUCCESS)
@@ -101,6 +102,7 @@ imp_code collection_make_tree(collection *all, const surface_view *view, candida
                         .surface = view->surface,
                         .left_out = view->left_out,
                         .held = view->held,
+                        .aside = view->aside,
                         .eval_error = -1};
     return IMP_SUCCESS;
 }
@@ -115,7 +117,7 @@ static imp_code collect_surface(collection *all, size_t body, size_t index, imp_
     }
     const size_t k = all->list->count;
     candidate *made = &all->list->candidates[k];
-    const surface_view view = {body, index, all->common_motion, {0, 0}, NAN};
+    const surface_view view = {body, index, all->common_motion, {0, 0}, {0, 0}, NAN};
     const imp_code code = collection_make_tree(all, &view, made, &exists, error);
     if (code != IMP_SUCCESS || !exists) return code;
     all->list->count += 1;

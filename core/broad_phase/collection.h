@@ -137,9 +137,10 @@ imp_code collection_use_frames(collection *all, bool *done, imp_error *error);
 /* The maps and times for which a tree represents a surface. */
 typedef struct surface_view {
     size_t body, surface;
-    size_t left_out; /* number of last maps left out */
-    held_maps held;  /* first maps held at one moment */
-    double moment;   /* the only time, or NAN: all of the query's times */
+    size_t left_out;  /* number of last maps left out */
+    held_maps held;   /* first maps held at one moment */
+    maps_aside aside; /* further maps left out */
+    double moment;    /* the only time, or NAN: all of the query's times */
 } surface_view;
 
 /* Makes a tree of this view. *exists false: the surface exists at none of the query's times, and

@@ -38,6 +38,14 @@ frame *frame_list_next(frame_list *frames);
 imp_code frames_find(collection *all, frame_list *frames, const candidate *c,
                      const surface_view *view, size_t *found, imp_error *error);
 
+/* Whether maps of the pair's surfaces may be set aside. */
+bool frames_may_set_aside(const collection *all, const candidate_pair *p);
+
+/* Gives pair k frames in which maps that both surfaces share, or that cancel, are set aside, and
+ * adds what that slips to *slip. */
+imp_code frames_set_aside(collection *all, frame_list *frames, size_t k, double *slip,
+                          imp_error *error);
+
 /* Whether maps of one of the pair's surfaces may be held. */
 bool frames_may_be_held(const collection *all, const candidate_pair *p);
 

@@ -14,12 +14,13 @@
  * what is asked of it, scene_trees.c makes the trees of its surfaces. */
 
 /* A surface without its last maps, for trees in a frame that moves with these, and with its first
- * maps held (core/surface/held.h). */
+ * maps held (core/surface/held.h), or some set aside (core/surface/aside.h). */
 typedef struct inner {
     struct inner *next;
     surface *surface;
     size_t left_out;
     held_maps held;
+    maps_aside aside;
 } inner;
 
 typedef struct member {

@@ -6,6 +6,7 @@
 
 #include "core/base/status.h"
 #include "core/scene/scene_internal.h"
+#include "core/surface/aside.h"
 #include "core/surface/held.h"
 
 static void inner_free(const imp_scene *scene, inner *i)
@@ -53,26 +54,31 @@ static tree *keep_tree(member *m, const tree_plan *plan, tree *made)
 static const surface *find_inner(const inner *i, const tree_plan *plan)
 {
     while (i != NULL &&
-           (i->left_out != plan->left_out || !held_maps_are_equal(i->held, plan->held)))
+           (i->left_out != plan->left_out || !held_maps_are_equal(i->held, plan->held) ||
+            !maps_aside_are_equal(i->aside, plan->aside)))
         i = i->next;
     return i != NULL ? i->surface : NULL;
+}
+
+static surface *new_inner(const surface *s, const tree_plan *plan)
+{
+    const size_t maps = surface_map_count(s) - plan->left_out;
+    if (plan->aside.which != 0) return surface_new_aside(s, maps, plan->aside);
+    return plan->held.count > 0 ? surface_new_held(s, maps, plan->held)
+                                : surface_new_inner(s, maps);
 }
 
 /* Returns the surface of the plan, made now if it is asked for first. NULL: no memory. */
 static const surface *surface_in_frame(const imp_scene *scene, member *m, const tree_plan *plan,
                                        tree_growth *growth)
 {
-    if (plan->left_out == 0 && plan->held.count == 0) return m->surface;
+    if (plan->left_out == 0 && plan->held.count == 0 && plan->aside.which == 0) return m->surface;
     inner *first = atomic_load_explicit(&m->inners, memory_order_acquire);
     const surface *found = find_inner(first, plan);
     if (found != NULL) return found;
     inner *made = arena_store_room(scene->store, sizeof *made);
     if (made == NULL) return NULL;
-    const size_t maps = surface_map_count(m->surface) - plan->left_out;
-    *made = (inner){NULL,
-                    plan->held.count > 0 ? surface_new_held(m->surface, maps, plan->held)
-                                         : surface_new_inner(m->surface, maps),
-                    plan->left_out, plan->held};
+    *made = (inner){NULL, new_inner(m->surface, plan), plan->left_out, plan->held, plan->aside};
     if (made->surface == NULL) {
         arena_store_free_room(scene->store, made);
         return NULL;

@@ -22,7 +22,7 @@ static bool is_at_rest(const imp_query *query, int side)
     const imp_region *times = &tree_root(c->tree)->region;
     double lo[3], hi[3];
     imp_rate_matrix rates;
-    if (c->moves && c->left_out == 0 && c->held.count == 0) return false;
+    if (c->moves && c->left_out == 0 && c->held.count == 0 && c->aside.which == 0) return false;
     if (surface_piece_count(s) > 0) s = surface_piece(s, query->impact.found.piece[side]);
     surface_domain(s, lo, hi);
     lo[2] = times->lo[2], hi[2] = times->hi[2];

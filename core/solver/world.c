@@ -7,6 +7,7 @@
 #include <math.h>
 #include <string.h>
 
+#include "core/surface/aside.h"
 #include "core/surface/held.h"
 
 static const surface *piece_of(const imp_scene *scene, const imp_side *at)
@@ -33,14 +34,15 @@ static double arrow_length(const vec3 *from, const double to[3])
 }
 
 /* Maps both ends of an arrow along the normal. */
-static imp_code turn_normal(const surface *s, size_t maps, const witness *found, double t,
+static imp_code turn_normal(const surface *s, const candidate *of, const witness *found, double t,
                             world_witness *in_world, imp_error *error)
 {
+    const size_t maps = surface_map_count(s) - of->left_out;
     vec3 from = found->point[0];
     const double length = arrow_length(&from, in_world->side[0].point);
     vec3 to = vec3_sub(from, vec3_scale(found->normal, -length));
-    imp_status status = surface_move_outward(s, maps, t, 1, from.x);
-    if (status == IMP_STATUS_OK) status = surface_move_outward(s, maps, t, 1, to.x);
+    imp_status status = surface_move_from_aside(s, maps, of->aside, t, from.x);
+    if (status == IMP_STATUS_OK) status = surface_move_from_aside(s, maps, of->aside, t, to.x);
     if (status != IMP_STATUS_OK) return fault(s, status, t, error);
     const vec3 image = vec3_sub(to, from);
     memcpy(in_world->normal, vec3_scale(image, 1 / vec3_norm(image)).x, sizeof in_world->normal);
@@ -55,7 +57,7 @@ static imp_code place_side(const imp_scene *scene, const candidate *of, const wi
     *at = (imp_side){of->body,       of->surface,    found->piece[side],
                      found->u[side], found->v[side], {0, 0, 0}};
     memcpy(at->point, found->point[side].x, sizeof at->point);
-    if (of->left_out == 0 && of->held.count == 0) return IMP_SUCCESS;
+    if (of->left_out == 0 && of->held.count == 0 && of->aside.which == 0) return IMP_SUCCESS;
     const surface *s = piece_of(scene, at);
     const size_t maps = surface_map_count(s) - of->left_out;
     imp_status status = IMP_STATUS_OK;
@@ -83,12 +85,13 @@ imp_code world_witness_of(const imp_scene *scene, const candidate_pair *both, co
     }
     in_world->gap = found->gap;
     memcpy(in_world->normal, found->normal.x, sizeof in_world->normal);
-    const size_t left_out = both->side[0]->left_out;
-    const bool is_held = both->side[0]->held.count + both->side[1]->held.count > 0;
-    if (left_out == 0 && !is_held) return IMP_SUCCESS;
+    const candidate *const *of = (const candidate *const *)both->side;
+    const bool is_moved = of[0]->left_out > 0 || of[0]->aside.which != 0;
+    const bool is_held = of[0]->held.count + of[1]->held.count > 0;
+    if (!is_moved && !is_held && of[1]->aside.which == 0) return IMP_SUCCESS;
     const double gap = distance_of(in_world->side);
     in_world->gap = gap <= most ? gap : found->gap_upper;
-    if (!found->has_normal || left_out == 0) return IMP_SUCCESS;
+    if (!found->has_normal || !is_moved) return IMP_SUCCESS;
     const surface *s = piece_of(scene, &in_world->side[0]);
-    return turn_normal(s, surface_map_count(s) - left_out, found, t, in_world, error);
+    return turn_normal(s, of[0], found, t, in_world, error);
 }

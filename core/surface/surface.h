@@ -250,6 +250,23 @@ static inline bool held_maps_are_equal(held_maps x, held_maps y)
     return x.count == y.count && x.slip == y.slip;
 }
 
+/* Maps of a surface that are left out although maps after them are not (aside.h): bit k for map k.
+ * Distances from the surface that was asked about then differ by at most the slip; length. */
+typedef struct maps_aside {
+    uint32_t which;
+    double slip;
+} maps_aside;
+
+static inline bool maps_aside_has(maps_aside x, size_t map)
+{
+    return map < 32 && (x.which >> map & 1u) != 0;
+}
+
+static inline bool maps_aside_are_equal(maps_aside x, maps_aside y)
+{
+    return x.which == y.which && x.slip == y.slip;
+}
+
 /* A plane, and an upper bound of the distance from it of the points of a part of a surface, before
  * its maps. */
 typedef struct surface_plane {

@@ -103,6 +103,9 @@ static inline bool map_turns_exactly(const mapping *map)
 /* Whether the pose's rotation depends on time. */
 bool pose_turns(const imp_pose *pose);
 
+/* Whether it is exactly 1 at all times of the pose. */
+bool pose_turn_is_identity(const imp_pose *pose);
+
 /* Returns an upper bound of |(R^T R - 1) x| / |x| for the turn R of one map, at all times of the
  * pose. */
 double surface_pose_deviation_upper(const imp_pose *pose);

@@ -76,11 +76,11 @@ static void choose_pivot(const imp_pose *next, imp_pose *pose)
     memcpy(pose->pivot, pivot, sizeof pivot);
 }
 
-static bool is_identity(imp_model turn[3][3])
+bool pose_turn_is_identity(const imp_pose *pose)
 {
     for (int i = 0; i < 3; ++i)
         for (int j = 0; j < 3; ++j) {
-            const imp_model *m = &turn[i][j];
+            const imp_model *m = &pose->turn[i][j];
             if (m->depends != 0 || m->e != 0 || m->a != (i == j) || m->lo != m->hi) return false;
         }
     return true;
@@ -96,7 +96,7 @@ static void add_pose(imp_pose *next, double norm, imp_pose *pose)
     const imp_model *const ways[3] = {&way[0], &way[1], &way[2]};
     if (pose_turns(next) && !pose_turns(pose)) choose_pivot(next, pose);
     for (int i = 0; i < 3; ++i) way[i] = imp_shift(pose->shift[i], -next->pivot[i]);
-    if (is_identity(next->turn)) {
+    if (pose_turn_is_identity(next)) {
         for (int i = 0; i < 3; ++i) pose->shift[i] = imp_add(way[i], next->shift[i]);
         return; /* pose->fixed stays fixed */
     }

@@ -86,6 +86,7 @@ typedef struct tree_plan {
     node_audit audit;      /* may be NULL */
     size_t left_out;       /* number of the surface's last maps that are not applied */
     held_maps held;        /* its first maps that are held at one moment */
+    maps_aside aside;      /* further maps that are not applied; none if some are held */
     arena_store *store;    /* of blocks for its nodes; NULL: the heap; no difference otherwise */
 } tree_plan;
 

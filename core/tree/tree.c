@@ -189,7 +189,8 @@ bool tree_is_of(const tree *t, const tree_plan *plan)
 {
     return t->plan.kind == plan->kind && t->plan.t_start == plan->t_start &&
            t->plan.t_end == plan->t_end && t->plan.audit == plan->audit &&
-           t->plan.left_out == plan->left_out && held_maps_are_equal(t->plan.held, plan->held);
+           t->plan.left_out == plan->left_out && held_maps_are_equal(t->plan.held, plan->held) &&
+           maps_aside_are_equal(t->plan.aside, plan->aside);
 }
 
 bool tree_is_audited(const tree *t) { return t->plan.audit != NULL; }

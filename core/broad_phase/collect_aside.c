@@ -1,0 +1,67 @@
+/* SPDX-FileCopyrightText: The Impinge authors
+ * SPDX-License-Identifier: Apache-2.0 */
+#include <config.h>
+
+#include <math.h>
+
+#include "core/base/rounding.h"
+#include "core/broad_phase/frame_list.h"
+#include "core/surface/aside.h"
+
+/* Pairs whose surfaces share motion that is not at the end of their maps, or that cancels: it is
+ * set aside.
+ *
+ * Lemma. With these maps set aside, the distance of both surfaces differs by at most the slip from
+ * the true one, at each time (surface_shared_aside). So a distance of c, proved without them, is
+ * one of c less the slip, which the list's slip is not below. */
+
+/* Rigid maps of one surface that are not left out. -1: others, too. */
+static int own_maps(const surface *s, size_t motion)
+{
+    if (surface_map_count(s) > 0 && !surface_is_rigid(s)) return -1;
+    return (int)(surface_map_count(s) - motion);
+}
+
+/* One map that both surfaces have is found by surface_common_motion; so there are two of one, or
+ * three of both. */
+bool frames_may_set_aside(const collection *all, const candidate_pair *p)
+{
+    if (all->slip_most < 0 || !all->may_halve) return false;
+    const surface *a = tree_surface(p->side[0]->tree), *b = tree_surface(p->side[1]->tree);
+    const size_t motion = surface_common_motion(a, b);
+    const int m = own_maps(a, motion), n = own_maps(b, motion);
+    return m >= 0 && n >= 0 && (m >= 2 || n >= 2);
+}
+
+imp_code frames_set_aside(collection *all, frame_list *frames, size_t k, double *slip,
+                          imp_error *error)
+{
+    const candidate_pair *p = &all->list->pairs[k];
+    size_t *of_pair = frames->of_pair[k];
+    const surface *s[2];
+    imp_model bare[2][3];
+    time_window times;
+    imp_code code = frames_make_roots(all, frames, k, &times, error);
+    if (code != IMP_SUCCESS || !(times.lo < times.hi)) return code;
+    for (int side = 0; side < 2; ++side) {
+        const tree *t = frames->at[of_pair[side]].made.tree;
+        s[side] = tree_surface(t);
+        if (!node_bare_models(tree_root(t), bare[side])) return IMP_SUCCESS;
+    }
+    const imp_region over = region_make((double[3]){0, 0, times.lo}, (double[3]){0, 0, times.hi});
+    shared_aside shared;
+    int asked = 0;
+    const imp_status status =
+        surface_shared_aside(s, bare, &over, 0.25 * all->slip_most, &shared, &asked);
+    if (status != IMP_STATUS_OK) return distance_fault(s[asked], status, error);
+    for (int side = 0; side < 2; ++side) {
+        if (shared.which[side] == 0) continue;
+        surface_view view = frames->at[of_pair[side]].view;
+        view.aside = (maps_aside){shared.which[side], shared.slip};
+        code = frames_find(all, frames, p->side[side], &view, &of_pair[side], error);
+        if (code != IMP_SUCCESS || of_pair[side] == NONE) return code;
+    }
+    if (shared.slip > 0) *slip = sum_upper(*slip, shared.slip);
+    if (*slip > all->list->slip) all->list->slip = *slip;
+    return IMP_SUCCESS;
+}
