@@ -91,6 +91,22 @@ near='sphere center=2.01,0.1,0.2'
     json '.verdict == "clear" and .stats.pairs == 1'
 }
 
+# For a turn by more than pi within a cell, bounds by axes are as wide as the bore.
+@test "balls, cans and boxes that turn often in a bore are proved about one centre" {
+    local turn='rotate axis=0,0,1 rate' rate
+    for rate in 6 30; do
+        "$IMPINGE" pair "sphere ! rotate rate=$rate" 'cylinder radius=1.01 height=0.5' --proof ball
+        "$IMPINGE" pair "cylinder radius=0.99 height=0.5 ends=true ! $turn=$rate" \
+            'cylinder height=2' --proof can
+        "$IMPINGE" pair "box size=1,1,1 ! $turn=$rate" 'cylinder radius=0.75 height=3' --proof box
+        for pair in ball can box; do
+            run -0 verify "$pair"
+            [[ $output =~ ([0-9]+)" tests" ]]
+            [ "${BASH_REMATCH[1]}" -lt 600 ]
+        done
+    done
+}
+
 # Each flank is nearer to the other's axis than the other's crests: no distance from the axis parts
 # them, and leaves that were cut for a bolt at rest would have to be cut again in time.
 @test "a nut on its bolt is proved by parts, each for some of the time" {

@@ -146,7 +146,53 @@ START_TEST(cones_are_parted_by_axes_that_turn_about_their_own)
 }
 END_TEST
 
+/* What turns within a bore, though its own side is not round about the bore's line, and what would
+ * come too near if it were only a little larger, moved, or faster. Bounds of a turn by pi or more
+ * are as wide as the bore for each axis. */
+START_TEST(one_centre_parts_balls_discs_and_sides_of_boxes_from_a_bore)
+{
+    static const char ball[] = "u in [0, 2*pi]; v in [-0.4, 0.4]; 0.99*cos(v)*cos(u) + 0; "
+                               "0.99*cos(v)*sin(u); 0.99*sin(v)",
+                      disc[] = "u in [0, 2*pi]; v in [0, 0.99]; v*cos(u) + 0; v*sin(u); 0.3",
+                      face[] = "u in [-0.7, 0.7]; v in [-0.5, 0.5]; u; 0.7 + 0; v";
+    static const char about_z[] = "x*cos(10*t) - y*sin(10*t); x*sin(10*t) + y*cos(10*t); z",
+                      about_x[] = "x; y*cos(10*t) - z*sin(10*t); y*sin(10*t) + z*cos(10*t)";
+    static const struct {
+        const char *what, *turn, *from, *to;
+        bool holds;
+    } ways[] = {
+        {ball, about_z, "0.005", "0.001", true},
+        {ball, about_x, "0.005", "0.001", true},
+        {ball, about_x, "0.005", "0.0101", false},
+        {ball, about_x, "x; y*cos", "x + 0.006*t; y*cos", false},
+        {ball, about_x, "x; y*cos", "x + 0.03*t*(1 - t); y*cos", false},
+        {ball, about_x, "x; y*cos", "x*(1 + 0.006*t); y*cos", false},
+        {ball, about_x, "+ 0;", "+ 0.006;", false},
+        {ball, about_x, "; cos(u); sin(u); v\n",
+         "; (1 - 0.006*v^8)*cos(u); (1 - 0.006*v^8)*sin(u); v\n", true},
+        {ball, about_x, "; cos(u); sin(u); v\n",
+         "; (1 - 0.006*t)*cos(u); (1 - 0.006*t)*sin(u); v\n", false},
+        {disc, about_z, "0.005", "0.001", true},
+        {disc, about_z, "0.005", "0.0101", false},
+        {disc, about_z, "+ 0;", "+ 0.006;", false},
+        {disc, about_z, "y*cos(10*t); z", "y*cos(10*t) + 0.006*t; z", false},
+        {face, about_z, "0.005", "0.001", true},
+        {face, about_z, "0.005", "0.0102", false},
+        {face, about_z, "0.7 + 0", "0.7 + 0.008", false},
+        {face, about_z, "y*cos(10*t); z", "y*cos(10*t) + 0.03*t*(1 - t); z", false},
+    };
+    for (size_t k = 0; k < sizeof ways / sizeof *ways; ++k) {
+        certificate c = shaft_made();
+        replace(&c, "u in [0, 2*pi]; v in [-1, 1]; 0.99*cos(u) + 0; 0.99*sin(u); v", ways[k].what);
+        replace(&c, "x*cos(t) - y*sin(t); x*sin(t) + y*cos(t); z", ways[k].turn);
+        replace(&c, ways[k].from, ways[k].to);
+        require_within(&c, ways[k].holds ? EFFORT : EFFORT_OF_CHANGES, ways[k].holds ? NULL : "");
+    }
+}
+END_TEST
+
 SUITE_MAIN("certificate_round", cones_are_parted_by_axes_that_turn_about_their_own,
+           one_centre_parts_balls_discs_and_sides_of_boxes_from_a_bore,
            round_surfaces_are_parted_about_their_centre,
            shafts_that_leave_their_centre_are_not_parted_about_it,
            leaves_that_share_a_side_prove_their_own_cells)

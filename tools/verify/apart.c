@@ -275,6 +275,7 @@ void prover_forget(prover *p)
 {
     p->centre_count = 0;
     p->wasted = 0;
+    p->spent = 0;
     p->has_missed = false;
     p->kept[0].is_kept = p->kept[1].is_kept = false;
 }
@@ -283,6 +284,7 @@ bool prove_apart(prover *p, const cell *c)
 {
     p->tests = 0;
     p->has_guessed = false;
+    p->leaf = c;
     p->found = INFINITY;
     p->why = "";
     if (p->apart <= 0) return true; /* no distance is below 0 */

@@ -44,12 +44,14 @@ typedef struct prover {
     centre centres[2];  /* of either side, as guessed in this leaf or before */
     int centre_count;
     size_t wasted;    /* boxes of centres, since one of them parted a cell */
+    size_t spent;     /* boxes of one centre, beyond what it gained (apart_axis.c) */
     bool has_guessed; /* in this leaf */
     bool has_missed;  /* the last guess, of these pieces, found that one is not round */
     size_t missed[2];
-    cell tried; /* of the last test, and */
-    aim aim;    /* what it tried there, for A */
-    cell worst; /* where it ended, */
+    const cell *leaf; /* that is being proved */
+    cell tried;       /* of the last test, and */
+    aim aim;          /* what it tried there, for A */
+    cell worst;       /* where it ended, */
     values worst_when;
     double found;    /* what was found there: two points so near, or INFINITY: nothing but */
     const char *why; /* this */

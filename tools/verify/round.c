@@ -94,6 +94,9 @@ static bool solve(int size, double m[UNKNOWNS][UNKNOWNS], double b[UNKNOWNS])
     return true;
 }
 
+/* A centre that moves by no more, for a surface of size 1, is at rest. */
+#define RESTING 1e-3
+
 /* A mean square of distances below this, for a surface of size 1, is rounding. */
 #define NEAR 1e-16
 
@@ -150,11 +153,22 @@ static bool find_line(const normals *all, double c[3], double d[3])
     return true;
 }
 
+/* Whether the normals are those of a plane, which all lines along them meet at infinity. */
+static bool are_parallel(const normals *all)
+{
+    double sum = 0, turn[3];
+    for (int k = 1; k < all->count; ++k) {
+        cross(all->n[0], all->n[k], turn);
+        sum += dot(turn, turn);
+    }
+    return sum <= NEAR * all->count;
+}
+
 bool centre_guess(memory *known, const place *of, double t, centre *found)
 {
     normals all;
     memset(found, 0, sizeof *found);
-    if (!take_normals(known, of, t, &all)) return false;
+    if (!take_normals(known, of, t, &all) || are_parallel(&all)) return false;
     found->is_line = !find_point(&all, found->c);
     if (found->is_line && !find_line(&all, found->c, found->d)) return false;
     for (int i = 0; i < 3; ++i) found->c[i] = found->c[i] * all.scale + all.mean[i];
@@ -162,15 +176,74 @@ bool centre_guess(memory *known, const place *of, double t, centre *found)
     return true;
 }
 
-bool centre_is_shared(const centre *a, const centre *b)
+/* Whether two centres are nearer than `most`, and their lines turn by less than `turned`. */
+static bool are_near(const centre *a, const centre *b, double most, double turned)
 {
-    const double most = 0.25 * fmax(a->size, b->size);
     double from[3], across[3], turn[3];
     for (int i = 0; i < 3; ++i) from[i] = b->c[i] - a->c[i];
     cross(from, a->d, across);
     cross(a->d, b->d, turn);
     const double *off = a->is_line ? across : from;
-    return a->is_line == b->is_line && sqrt(dot(off, off)) < most && sqrt(dot(turn, turn)) < 0.1;
+    return a->is_line == b->is_line && sqrt(dot(off, off)) < most && sqrt(dot(turn, turn)) < turned;
+}
+
+bool centre_is_shared(const centre *a, const centre *b)
+{
+    return are_near(a, b, 0.25 * fmax(a->size, b->size), 0.1);
+}
+
+bool centre_rests(memory *known, const place *of, const double t[2], const centre *at)
+{
+    for (int end = 0; end < 2; ++end) {
+        centre there;
+        if (!centre_guess(known, of, t[end], &there)) return false;
+        if (!are_near(at, &there, RESTING * at->size, RESTING)) return false;
+    }
+    return true;
+}
+
+/* Points of a box that are looked at along u, v and t. */
+enum { SEEN_U = 4, SEEN_V = 2, SEEN_T = 5, SEEN = SEEN_U * SEEN_V * SEEN_T };
+
+/* Steps in which a direction is sought that is within a right angle of all that are seen. */
+enum { ROUNDS = 100 };
+
+/* The direction in which a point of a box is seen from a centre, across its line; false: none. */
+static bool see(memory *known, const place *of, const box3 *where, const double share[VARIABLES],
+                const centre *from, double n[3])
+{
+    box3 at = *where;
+    for (int j = 0; j < VARIABLES; ++j)
+        at.lo[j] = at.hi[j] = where->lo[j] + (where->hi[j] - where->lo[j]) * share[j];
+    const kept *k = look_jets(known, of, &at);
+    if (k->result != ENCLOSED) return false;
+    for (int i = 0; i < 3; ++i) n[i] = ld_interval_mid(k->centre[i].v) - from->c[i];
+    const double along = from->is_line ? dot(n, from->d) / dot(from->d, from->d) : 0;
+    for (int i = 0; i < 3; ++i) n[i] -= along * from->d[i];
+    const double length = sqrt(dot(n, n));
+    for (int i = 0; i < 3; ++i) n[i] /= length;
+    return length > 0 && length < INFINITY;
+}
+
+bool centre_is_amid(memory *known, const centre *from, const place *of, const box3 *where)
+{
+    double n[SEEN][3], sum[3] = {0};
+    int count = 0, worst = 0;
+    for (int k = 0; k < SEEN; ++k) {
+        const double share[VARIABLES] = {(k % SEEN_U + 0.4) / SEEN_U,
+                                         (k / SEEN_U % SEEN_V + 0.4) / SEEN_V,
+                                         (double)(k / (SEEN_U * SEEN_V)) / (SEEN_T - 1)};
+        if (!see(known, of, where, share, from, n[count])) continue;
+        for (int i = 0; i < 3; ++i) sum[i] += n[count][i];
+        count += 1;
+    }
+    for (int round = 0; round < ROUNDS && count > 0; ++round) { /* Rosenblatt's perceptron */
+        for (int k = 0; k < count; ++k)
+            if (dot(n[k], sum) < dot(n[worst], sum)) worst = k;
+        if (dot(n[worst], sum) > 0) return false;
+        for (int i = 0; i < 3; ++i) sum[i] += n[worst][i];
+    }
+    return count > 0;
 }
 
 /* --- Distances -------------------------------------------------------------------------------- */

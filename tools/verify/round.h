@@ -23,6 +23,14 @@ bool centre_is_shared(const centre *a, const centre *b);
  * has none, as far as is seen. What is computed from a bad guess costs time only. */
 bool centre_guess(memory *known, const place *of, double t, centre *found);
 
+/* Whether a centre that was guessed is nearly where it is at both times `t`, too. */
+bool centre_rests(memory *known, const place *of, const double t[2], const centre *at);
+
+/* Whether a box of a surface, over its times, is seen from the centre in directions of which none
+ * is within a right angle of all, as far as is sampled: no axis parts it from what is round there.
+ */
+bool centre_is_amid(memory *known, const centre *from, const place *of, const box3 *where);
+
 /* Makes the aims of both sides from that centre to points beyond, which shall be `apart`, and an
  * upper bound of how much what they bound changes for a unit of length. `where` is the box of
  * either side. */
