@@ -4,12 +4,12 @@
 
 #include "core/tree/pose.h"
 
+#include <impinge/interval.h>
+
 #include "core/tree/model_lanes.h"
 #include "core/tree/posed_terms.h"
 
 /* --- Vector layout ---------------------------------------------------------------------------- */
-
-static double larger(double x, double y) { return x > y ? x : y; }
 
 void pose_take(pose_lanes *p, const imp_pose *given, double norm)
 {
@@ -22,7 +22,7 @@ void pose_take(pose_lanes *p, const imp_pose *given, double norm)
             const double entry[3] = {r->a, r->b[2], r->q[IMP_TT]};
             for (int k = 0; k < 3; ++k) p->turn[k][j][i] = entry[k];
             p->turn_error[j][i] = r->e;
-            p->turn_most[j][i] = larger(fabs(r->lo), fabs(r->hi));
+            p->turn_most[j][i] = imp_larger(fabs(r->lo), fabs(r->hi));
             p->turn_rate[j][i] = r->rate[2];
         }
         for (int k = 0; k < 3; ++k) p->shift[k][i] = shift[k];
