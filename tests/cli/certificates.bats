@@ -107,6 +107,17 @@ near='sphere center=2.01,0.1,0.2'
     done
 }
 
+@test "a proof that is not finished is refused in these words, with the option that allows more" {
+    "$IMPINGE" pair 'sphere ! rotate rate=10' 'cylinder radius=1.01 height=0.5' --proof ball
+    run -1 verify ball --effort 1
+    [[ $output == *'its effort ran out; not finished, not found false: try --effort above 1' ]]
+    run -0 verify ball
+    "$IMPINGE" pair sphere 'sphere center=3,0,0' --proof balls
+    sed 's/^apart .*/apart 1.5/' balls > false
+    run -1 verify false
+    [[ $output != *--effort* ]]
+}
+
 # Each flank is nearer to the other's axis than the other's crests: no distance from the axis parts
 # them, and leaves that were cut for a bolt at rest would have to be cut again in time.
 @test "a nut on its bolt is proved by parts, each for some of the time" {

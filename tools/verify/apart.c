@@ -256,8 +256,9 @@ static bool prove(prover *p, const cell *c, int depth)
 {
     cut by;
     cell half[2];
-    if (++p->tests > p->tests_most || depth > DEPTH_MAX)
-        return apart_fail(p, c, INFINITY, "it is not proved within the effort allowed"), false;
+    p->ran_out = ++p->tests > p->tests_most;
+    if (p->ran_out) return apart_fail(p, c, INFINITY, "its effort ran out"), false;
+    if (depth > DEPTH_MAX) return apart_fail(p, c, INFINITY, "it is divided too often"), false;
     const apart_outcome o = test(p, c, &by);
     if (o != DIVIDE) return o == APART && prove_ends(p, c, depth);
     if (!cell_split(p, c, &by, half))
@@ -283,7 +284,7 @@ void prover_forget(prover *p)
 bool prove_apart(prover *p, const cell *c)
 {
     p->tests = 0;
-    p->has_guessed = false;
+    p->has_guessed = p->ran_out = false;
     p->leaf = c;
     p->found = INFINITY;
     p->why = "";

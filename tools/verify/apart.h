@@ -54,7 +54,8 @@ typedef struct prover {
     cell worst;       /* where it ended, */
     values worst_when;
     double found;    /* what was found there: two points so near, or INFINITY: nothing but */
-    const char *why; /* this */
+    const char *why; /* this; and */
+    bool ran_out;    /* that is all: tests_most were too few */
 } prover;
 
 /* Forgets what leaves before have told, so that a leaf's effort depends on no other share. */

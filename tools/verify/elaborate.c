@@ -189,8 +189,10 @@ static bool write_cell(elaboration *e, tree *r, const cell *c, const int16_t hin
 {
     aim found;
     cell half[2];
-    if (++e->cells > e->effort || depth > DEPTH_MAX)
-        return give_up(r, "it is not proved within the effort allowed");
+    if (++e->cells > e->effort)
+        return give_up(r, "its effort ran out, which does not say that it is false: try a greater "
+                          "--effort");
+    if (depth > DEPTH_MAX) return give_up(r, "it is divided too often");
     if (e->progress != NULL) e->progress(e->w->in->at);
     const int16_t *known[2] = {e->leaf_tree == e->tree ? e->last : hint, hint};
     aim_take(&r->p, c, known, &found);

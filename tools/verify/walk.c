@@ -55,11 +55,14 @@ static void say_values(const pair *p, char *text, size_t size)
 static bool refuse(pair *p)
 {
     const prover *q = &p->prover;
-    char a[300], b[300], found[80] = "", others[500];
+    char a[300], b[300], found[120] = "", others[500];
     say_side(p, &q->worst, 0, a, sizeof a);
     say_side(p, &q->worst, 1, b, sizeof b);
     say_values(p, others, sizeof others);
     if (q->found < INFINITY) snprintf(found, sizeof found, ": %.9g apart", q->found);
+    if (q->ran_out)
+        snprintf(found, sizeof found, "; not finished, not found false: try --effort above %lu",
+                 q->tests_most);
     return input_refuse(p->w->in, "%s and %s, %.60s [%.17g, %.17g]%s, claimed apart by %.9g: %s%s",
                         a, b, clock_name(p->w->says, q->when.main), q->worst.t[0], q->worst.t[1],
                         others, p->w->says->apart, q->why, found);
