@@ -42,6 +42,8 @@ elaborated() {
     head -n 1 "$top_srcdir/tools/data/bicubic_moving_100.jsonl" >patches.json
     "$IMPINGE" solve patches.json --gamma 0.1 --proof patches.proof
     elaborated patches.proof
+    run -0 kernel patches.proof.long
+    [[ $output == *"2 bodies, 1 pair of surfaces, "*" leaves" ]]
     printf 'v 0 0 0\nv 2 0 0\nv 0 2 0\nv 2 2 1\nf 1 2 3\nf 2 4 3\n' >below.obj
     printf 'v 0 0 1.5\nv 2 0 1.5\nv 0 2 1.5\nv 2 2 2.5\nf 1 2 3\nf 2 4 3\n' >above.obj
     "$IMPINGE" pair 'mesh file=below.obj' 'mesh file=above.obj ! rotate axis=0,0,1 rate=1' --gamma 0.1 --proof meshes.proof

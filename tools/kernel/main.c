@@ -35,8 +35,9 @@ static void say(const claim *c, const trees *w)
         say_name("\nignored: ", c->bodies[c->ignored[k][0]]);
         say_name(" and ", c->bodies[c->ignored[k][1]]);
     }
-    printf("\n%zu bodies, %llu pairs of surfaces, %llu leaves\n", c->body_count,
-           (unsigned long long)w->pairs, (unsigned long long)w->leaves);
+    printf("\n%zu bodies, %llu pair%s of surfaces, %llu lea%s\n", c->body_count,
+           (unsigned long long)w->pairs, w->pairs == 1 ? "" : "s", (unsigned long long)w->leaves,
+           w->leaves == 1 ? "f" : "ves");
 }
 
 int main(int argc, char **argv)
@@ -54,6 +55,5 @@ int main(int argc, char **argv)
     const bool good = claim_read(&c, &in) && trees_hold(&w);
     if (good) say(&c, &w);
     if (!good) printf("refused at byte %llu: %s\n", (unsigned long long)in.at, in.fault);
-    if (fflush(stdout) != 0) return USAGE;
-    return good ? HOLDS : REFUSED;
+    return fflush(stdout) != 0 ? USAGE : good ? HOLDS : REFUSED;
 }
