@@ -110,10 +110,8 @@ bool broad_phase_visit_box(const swept_box *boxes, size_t count, int axis, size_
     return true;
 }
 
-enum { FEW = 6 }; /* boxes that are not worth sorting */
-
-static bool visit_few(const swept_box *boxes, size_t count, double gamma_clear,
-                      const broad_phase_visitor *visitor)
+bool broad_phase_visit_all(const swept_box *boxes, size_t count, double gamma_clear,
+                           const broad_phase_visitor *visitor)
 {
     for (size_t k = 0; k < count; ++k)
         for (size_t l = k + 1; l < count; ++l)
@@ -121,18 +119,6 @@ static bool visit_few(const swept_box *boxes, size_t count, double gamma_clear,
                 !boxes_apart(&boxes[k], &boxes[l], gamma_clear) &&
                 !visitor->visit(visitor->context, boxes[k].owner, boxes[l].owner))
                 return false;
-    return true;
-}
-
-bool broad_phase_visit(swept_box *boxes, size_t count, double gamma_clear,
-                       const broad_phase_visitor *visitor)
-{
-    if (count <= FEW) return visit_few(boxes, count, gamma_clear, visitor);
-    const int axis = broad_phase_sort(boxes, count);
-    for (size_t k = 0; k < count; ++k) {
-        if (!visitor->next_box(visitor->context)) return false;
-        if (!broad_phase_visit_box(boxes, count, axis, k, gamma_clear, visitor)) return false;
-    }
     return true;
 }
 

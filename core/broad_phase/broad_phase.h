@@ -18,23 +18,25 @@ typedef struct swept_box {
 } swept_box;
 
 typedef struct broad_phase_visitor {
-    /* Called before the pairs of each box, unless there are few boxes. Returns whether to
+    /* Called by broad_phase_least_distance before the pairs of each box. Returns whether to
      * continue. */
     bool (*next_box)(void *context);
     bool (*visit)(void *context, size_t first, size_t second); /* returns whether to continue */
     void *context;
 } broad_phase_visitor;
 
-/* Visits the pairs in the order of the sweep, or in any order if there are few boxes. False from a
- * callback stops the visit and is returned. Sorts `boxes`. */
-bool broad_phase_visit(swept_box *boxes, size_t count, double gamma_clear,
-                       const broad_phase_visitor *visitor);
+enum { BROAD_PHASE_FEW = 6 }; /* up to so many boxes are not worth sorting */
 
-/* broad_phase_visit in two steps, the second of which may run in several threads. The first sorts
- * the boxes along an axis, which it returns. */
+/* Visits the pairs without a sweep, each box with each after it. False from the visitor stops this
+ * and is returned, here and below. */
+bool broad_phase_visit_all(const swept_box *boxes, size_t count, double gamma_clear,
+                           const broad_phase_visitor *visitor);
+
+/* The sweep has two steps, the second of which may run in several threads. The first sorts the
+ * boxes along an axis, which it returns. */
 int broad_phase_sort(swept_box *boxes, size_t count);
 
-/* The second visits the pairs of box k with the boxes after it. */
+/* The second, for each box in their order, visits the pairs of box k with the boxes after it. */
 bool broad_phase_visit_box(const swept_box *boxes, size_t count, int axis, size_t k,
                            double gamma_clear, const broad_phase_visitor *visitor);
 

@@ -136,7 +136,7 @@ static bool go_on(void *context)
 
 static bool sweep_alone(collection *all)
 {
-    const broad_phase_visitor visitor = {go_on, add_pair, all};
+    const broad_phase_visitor visitor = {NULL, add_pair, all};
     for (size_t k = 0; k < all->list->count; ++k)
         if (!go_on(all) || !visit_box(all, k, &visitor)) return false;
     return true;
@@ -156,11 +156,11 @@ static bool sweep(collection *all)
 
 bool collection_add_pairs(collection *all)
 {
-    const broad_phase_visitor visitor = {go_on, add_pair, all};
+    const broad_phase_visitor visitor = {NULL, add_pair, all};
     const size_t count = all->list->count;
-    const bool is_small = count < STRIPS_BOXES_LEAST && all->sweep == NULL;
-    const bool done =
-        is_small ? broad_phase_visit(all->boxes, count, all->gamma_clear, &visitor) : sweep(all);
+    const bool done = count <= BROAD_PHASE_FEW
+                          ? broad_phase_visit_all(all->boxes, count, all->gamma_clear, &visitor)
+                          : sweep(all);
     return done && !collection_must_end(all); /* counts the bytes of the last pairs */
 }
 

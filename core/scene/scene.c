@@ -137,23 +137,29 @@ bool scene_is_solid(const imp_scene *scene, size_t body)
     return scene->bodies[body].solid;
 }
 
+/* Makes room for another surface: most bodies of large scenes have one. False: no memory. */
+static bool reserve_member(scene_body *b)
+{
+    if (b->count > 0) {
+        member *grown = array_reserve(b->members, b->count, &b->capacity, sizeof *grown);
+        if (grown != NULL) b->members = grown;
+        return grown != NULL;
+    }
+    if (b->capacity == 0) b->members = malloc(sizeof *b->members);
+    b->capacity = b->members != NULL;
+    return b->members != NULL;
+}
+
 imp_code scene_add_surface(imp_scene *scene, size_t index, surface *s)
 {
     assert(index < scene->count);
     scene_body *b = &scene->bodies[index];
-    member *members = array_reserve(b->members, b->count, &b->capacity, sizeof *members);
-    if (members == NULL) {
+    if (!reserve_member(b) || surface_divide(s) != IMP_SUCCESS) {
         surface_free(s);
-        return IMP_ERROR_MEMORY;
-    }
-    if (surface_divide(s) != IMP_SUCCESS) {
-        surface_free(s);
-        b->members = members;
         return IMP_ERROR_MEMORY;
     }
     surface_set_body(s, b->name, b->count);
-    members[b->count++] = (member){.surface = s};
-    b->members = members;
+    b->members[b->count++] = (member){.surface = s};
     return IMP_SUCCESS;
 }
 

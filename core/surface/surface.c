@@ -32,14 +32,25 @@ surface *surface_new_in(arena_store *store, shared_instance *type)
     return s;
 }
 
+/* Makes room for another map: most surfaces of large scenes have one or two. False: no memory. */
+static bool reserve_map(surface *s)
+{
+    const size_t count = s->map_count, wanted = count < 2 ? 2 : 2 * count;
+    if (count < s->map_capacity) return true;
+    if (count > SIZE_MAX / 4 / sizeof(mapping)) return false;
+    mapping *maps =
+        arena_store_regrow(s->store, s->maps, count * sizeof *maps, wanted * sizeof *maps);
+    if (maps == NULL) return false;
+    s->maps = maps;
+    s->map_capacity = wanted;
+    return true;
+}
+
 imp_code surface_add_instance(surface *s, shared_instance *map)
 {
     assert(map->map != NULL);
-    mapping *maps =
-        arena_store_reserve(s->store, s->maps, s->map_count, &s->map_capacity, sizeof *maps);
-    if (maps == NULL) return IMP_ERROR_MEMORY;
-    s->maps = maps;
-    maps[s->map_count++] = (mapping){map->map, map->self, instance_hold(map)};
+    if (!reserve_map(s)) return IMP_ERROR_MEMORY;
+    s->maps[s->map_count++] = (mapping){map->map, map->self, instance_hold(map)};
     if (map->lo[2] > s->lo[2]) s->lo[2] = map->lo[2];
     if (map->hi[2] < s->hi[2]) s->hi[2] = map->hi[2];
     return IMP_SUCCESS;

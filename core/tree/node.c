@@ -90,8 +90,7 @@ imp_code node_fill(tree *t, const node_place *place, node *n, tree_growth *growt
 {
     imp_code code = IMP_SUCCESS;
     node_begin(t, place, n);
-    if (t->plan.kind == TREE_MODELS && n->parent != NULL)
-        code = posing_begin(&t->posing, n, growth, error);
+    if (t->plan.kind == TREE_MODELS && n->parent != NULL) code = posing_begin(t, n, growth, error);
     bool done = false;
     if (code == IMP_SUCCESS && n->follows_net && n->shape == NULL)
         code = node_fill_from_net(t, n, &done, growth, error);

@@ -7,6 +7,7 @@
 #include <string.h>
 
 #include "core/base/status.h"
+#include "core/tree/tree_internal.h"
 
 typedef struct shape {
     bool moves;    /* moves by itself: has no halves */
@@ -51,30 +52,30 @@ static void shape_fill(shape *s, const node *n, const node *root)
     s->is_known = !s->moves;
 }
 
-static shape *shape_publish(posing *g, const shape *filled, _Atomic(shape *) *slot,
+static shape *shape_publish(tree *t, const shape *filled, _Atomic(shape *) *slot,
                             tree_growth *growth)
 {
-    pthread_mutex_lock(g->lock);
+    pthread_mutex_lock(&t->lock);
     shape *s = atomic_load_explicit(slot, memory_order_relaxed);
     if (s == NULL) {
-        s = arena_take(&g->memory, &posing_growth, sizeof *s, &growth->bytes, g->store);
+        s = arena_take(&t->posing.memory, &posing_growth, sizeof *s, &growth->bytes, t->plan.store);
         if (s != NULL) {
             memcpy(s, filled, sizeof *s);
             atomic_store_explicit(slot, s, memory_order_release);
         }
     }
-    pthread_mutex_unlock(g->lock);
+    pthread_mutex_unlock(&t->lock);
     return s;
 }
 
 /* Returns the shape in the slot, made now for n if there is none. NULL: no memory. */
-static shape *shape_in(posing *g, _Atomic(shape *) *slot, const node *n, tree_growth *growth)
+static shape *shape_in(tree *t, _Atomic(shape *) *slot, const node *n, tree_growth *growth)
 {
     shape *s = atomic_load_explicit(slot, memory_order_acquire);
     if (s != NULL) return s;
     shape filled;
-    shape_fill(&filled, n, g->root);
-    return shape_publish(g, &filled, slot, growth);
+    shape_fill(&filled, n, tree_root(t));
+    return shape_publish(t, &filled, slot, growth);
 }
 
 /* --- Spans ------------------------------------------------------------------------------------ */
@@ -105,23 +106,23 @@ static imp_code span_fill(span *s, const node *n, imp_error *error)
     return IMP_SUCCESS;
 }
 
-static span *span_publish(posing *g, const span *filled, _Atomic(span *) *slot, tree_growth *growth)
+static span *span_publish(tree *t, const span *filled, _Atomic(span *) *slot, tree_growth *growth)
 {
-    pthread_mutex_lock(g->lock);
+    pthread_mutex_lock(&t->lock);
     span *s = atomic_load_explicit(slot, memory_order_relaxed);
     if (s == NULL) {
-        s = arena_take(&g->memory, &posing_growth, sizeof *s, &growth->bytes, g->store);
+        s = arena_take(&t->posing.memory, &posing_growth, sizeof *s, &growth->bytes, t->plan.store);
         if (s != NULL) {
             memcpy(s, filled, sizeof *s);
             atomic_store_explicit(slot, s, memory_order_release);
         }
     }
-    pthread_mutex_unlock(g->lock);
+    pthread_mutex_unlock(&t->lock);
     return s;
 }
 
 /* Returns in *found the span in the slot, made now for n if there is none. */
-static imp_code span_in(posing *g, _Atomic(span *) *slot, const node *n, span **found,
+static imp_code span_in(tree *t, _Atomic(span *) *slot, const node *n, span **found,
                         tree_growth *growth, imp_error *error)
 {
     span filled;
@@ -129,7 +130,7 @@ static imp_code span_in(posing *g, _Atomic(span *) *slot, const node *n, span **
     if (*found != NULL) return IMP_SUCCESS;
     const imp_code code = span_fill(&filled, n, error);
     if (code != IMP_SUCCESS) return code;
-    *found = span_publish(g, &filled, slot, growth);
+    *found = span_publish(t, &filled, slot, growth);
     return *found != NULL ? IMP_SUCCESS : error_set_memory(error);
 }
 
@@ -138,43 +139,46 @@ static imp_code span_in(posing *g, _Atomic(span *) *slot, const node *n, span **
 /* Makes shape and span of the tree's root. *s stays NULL if it does not move rigidly, or moves by
  * itself, or moves uniformly without turning: then the inclusion through the maps is as cheap, and
  * needs no memory beside the node. */
-static imp_code begin_at_root(posing *g, shape **s, span **t, tree_growth *growth, imp_error *error)
+static imp_code begin_at_root(tree *t, shape **s, span **times, tree_growth *growth,
+                              imp_error *error)
 {
     shape whole = {.moves = true};
     span all = {.is_known = false};
+    posing *g = &t->posing;
+    const node *root = tree_root(t);
     if (atomic_load_explicit(&g->is_idle, memory_order_relaxed)) return IMP_SUCCESS;
     *s = atomic_load_explicit(&g->shape, memory_order_acquire);
-    *t = atomic_load_explicit(&g->span, memory_order_acquire);
-    if (*s != NULL && *t != NULL) return IMP_SUCCESS;
-    const bool is_rigid = surface_is_rigid(g->root->surface);
-    const imp_code code = is_rigid ? span_fill(&all, g->root, error) : IMP_SUCCESS;
+    *times = atomic_load_explicit(&g->span, memory_order_acquire);
+    if (*s != NULL && *times != NULL) return IMP_SUCCESS;
+    const bool is_rigid = surface_is_rigid(root->surface);
+    const imp_code code = is_rigid ? span_fill(&all, root, error) : IMP_SUCCESS;
     if (code != IMP_SUCCESS) return code;
-    if (is_rigid && !all.is_uniform) shape_fill(&whole, g->root, g->root);
+    if (is_rigid && !all.is_uniform) shape_fill(&whole, root, root);
     if (all.is_uniform || whole.moves) {
         *s = NULL;
         atomic_store_explicit(&g->is_idle, true, memory_order_relaxed);
         return IMP_SUCCESS;
     }
-    *t = span_publish(g, &all, &g->span, growth);
-    *s = shape_publish(g, &whole, &g->shape, growth);
-    return *s != NULL && *t != NULL ? IMP_SUCCESS : error_set_memory(error);
+    *times = span_publish(t, &all, &g->span, growth);
+    *s = shape_publish(t, &whole, &g->shape, growth);
+    return *s != NULL && *times != NULL ? IMP_SUCCESS : error_set_memory(error);
 }
 
-imp_code posing_begin(posing *g, node *n, tree_growth *growth, imp_error *error)
+imp_code posing_begin(tree *t, node *n, tree_growth *growth, imp_error *error)
 {
     shape *s = n->parent->shape;
-    span *t = n->parent->span;
+    span *times = n->parent->span;
     imp_code code = IMP_SUCCESS;
-    if (n->parent == g->root) code = begin_at_root(g, &s, &t, growth, error);
+    if (n->parent == tree_root(t)) code = begin_at_root(t, &s, &times, growth, error);
     if (code != IMP_SUCCESS || s == NULL || s->moves) return code;
     if (n->along == PARAMETER_T)
-        code = span_in(g, &t->child[n->side], n, &t, growth, error);
+        code = span_in(t, &times->child[n->side], n, &times, growth, error);
     else
-        s = shape_in(g, &s->child[n->along][n->side], n, growth);
+        s = shape_in(t, &s->child[n->along][n->side], n, growth);
     if (s == NULL) return error_set_memory(error);
     if (code != IMP_SUCCESS || s->moves) return code;
     n->shape = s;
-    n->span = t;
+    n->span = times;
     return IMP_SUCCESS;
 }
 

@@ -3,8 +3,6 @@
 #ifndef CORE_TREE_POSING_H
 #define CORE_TREE_POSING_H
 
-#include <pthread.h>
-
 #include "core/base/arena.h"
 #include "core/tree/pose.h"
 
@@ -17,18 +15,15 @@
  * first child, since most surfaces of a large scene are never split. */
 
 typedef struct posing {
-    pthread_mutex_t *lock;         /* the tree's; guards memory and publishing */
-    const node *root;              /* of the tree */
     _Atomic bool is_idle;          /* nodes of this surface are not posed */
     _Atomic(struct shape *) shape; /* the root's; NULL: not made yet */
     _Atomic(struct span *) span;
     arena memory; /* of shapes and spans */
-    arena_store *store;
-} posing;
+} posing;         /* of a tree, whose lock guards memory and publishing */
 
 /* Sets shape and span of n, a half of its parent of which only the place is set, if the surface
  * moves rigidly and not by itself. Errors are those of node_child. */
-imp_code posing_begin(posing *g, node *n, tree_growth *growth, imp_error *error);
+imp_code posing_begin(tree *t, node *n, tree_growth *growth, imp_error *error);
 
 /* Fills n from its shape and its span. False: it needs an inclusion instead. */
 bool posing_fill(node *n);

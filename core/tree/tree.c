@@ -66,14 +66,12 @@ static tree *tree_begin(const surface *s, const tree_plan *plan, bool with_root)
     *t = (tree){.surface = s,
                 .plan = *plan,
                 .begins_with_root = with_root,
-                .lock = PTHREAD_MUTEX_INITIALIZER,
-                .posing = {.lock = &t->lock, .store = plan->store}};
+                .lock = PTHREAD_MUTEX_INITIALIZER};
     return t;
 }
 
 static void set_root(tree *t, node *root)
 {
-    t->posing.root = root;
     atomic_store_explicit(&t->root, root, memory_order_release);
 }
 

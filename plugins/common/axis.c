@@ -103,11 +103,30 @@ static void axis_transform(const axis_frame *frame, imp_model cosine, imp_model 
     }
 }
 
-void axis_turn(const axis_frame *frame, imp_model angle, const imp_model w[3], imp_model out[3])
+bool axis_is_point(const imp_model *angle)
 {
-    imp_model sine, cosine;
-    imp_sincos(angle, &sine, &cosine);
-    axis_transform(frame, cosine, sine, w, out);
+    const double most = 0x1p-30; /* rad; what imp_is_point allows for a value of 1 */
+    return !angle->depends && angle->e <= most && angle->lo <= angle->a && angle->a <= angle->hi;
+}
+
+/* Returns the matrix of an angle within e of 0.
+ *
+ * Lemma. R(A) - 1 = sin A turned - (1 - cos A) across, where |sin A| <= e, and 1 - cos A <= e since
+ * it is at most e^2 / 2 and at most 2. Entries of across and turned are within their errors. An
+ * entry of 0 or 1 is exact: a turned point has only the roundings of w, of products and of sums. */
+static axis_point_matrix matrix_near_rest(const axis_frame *frame, double e)
+{
+    enum { REST_ROUNDING = 4 }; /* w, product, sums: 1 + 3 */
+    axis_point_matrix matrix;
+    for (int i = 0; i < 3; ++i)
+        for (int j = 0; j < 3; ++j) {
+            const near_constant across = frame->across[i][j], turned = frame->turned[i][j];
+            const double moving =
+                fabs(across.value) + across.error + fabs(turned.value) + turned.error;
+            matrix.entry[i][j] = i == j;
+            matrix.off[i][j] = e * moving + REST_ROUNDING * IMP_U * (i == j) + IMP_TINY;
+        }
+    return matrix;
 }
 
 /* Lemma (a point). Let w = at - center, off by u |w|, and let `trig` bound how far sine and cosine
@@ -126,6 +145,7 @@ axis_point_matrix axis_matrix_of_points(const axis_frame *frame, const imp_model
 {
     enum { POINT_ROUNDING = 8 };
     _Static_assert(1 + 3 + 3 <= POINT_ROUNDING, "rounding of a turned point");
+    if (angle->a == 0) return matrix_near_rest(frame, angle->e);
     const double s = sin(angle->a), c = cos(angle->a), trig = angle->e + IMP_LIBM + IMP_TINY;
     axis_point_matrix matrix;
     for (int i = 0; i < 3; ++i)
@@ -218,6 +238,21 @@ void axis_matrix(const axis_frame *frame, imp_model angle, imp_model turn[3][3])
     imp_sincos(angle, &sine, &cosine);
     for (int i = 0; i < 3; ++i)
         for (int j = 0; j < 3; ++j) turn[i][j] = matrix_entry(frame, i, j, &cosine, &sine, &angle);
+}
+
+static bool depends_on_one(const imp_model *x) { return (x->depends & (x->depends - 1)) == 0; }
+
+void axis_turn(const axis_frame *frame, imp_model angle, const imp_model w[3], imp_model out[3])
+{
+    if (angle.depends != 0 && depends_on_one(&angle)) {
+        imp_model turn[3][3];
+        axis_matrix(frame, angle, turn);
+        for (int i = 0; i < 3; ++i) out[i] = imp_dot3(turn[i], w);
+        return;
+    }
+    imp_model sine, cosine;
+    imp_sincos(angle, &sine, &cosine);
+    axis_transform(frame, cosine, sine, w, out);
 }
 
 void axis_stretch(const axis_frame *frame, imp_model factor, const imp_model w[3], imp_model out[3])

@@ -76,7 +76,11 @@ typedef struct axis_point_matrix {
     double entry[3][3], off[3][3]; /* 1 */
 } axis_point_matrix;
 
-/* Makes it of an angle that is a point (imp_is_point). */
+/* Whether an angle is known so well that the matrix of its middle serves. Its error counts beside 1
+ * rad: imp_is_point would refuse each angle that is nearly 0. */
+bool axis_is_point(const imp_model *angle);
+
+/* Makes it of an angle that is a point (axis_is_point, or imp_is_point). */
 axis_point_matrix axis_matrix_of_points(const axis_frame *frame, const imp_model *angle);
 
 /* Turns a point about the axis through the center, and bounds its errors, at a small part of what

@@ -124,7 +124,7 @@ static imp_status rotate_eval(const void *self, size_t n, const double *p, doubl
             imp_model angle;
             const imp_status status = angle_at(s, p[3], &angle);
             if (status != IMP_STATUS_OK) return status;
-            by_matrix = imp_is_point(&angle);
+            by_matrix = imp_is_point(&angle) || axis_is_point(&angle);
             if (by_matrix) matrix = axis_matrix_of_points(&s->axis, &angle);
         }
         if (by_matrix && axis_turn_point(&matrix, s->center, p, x, off)) continue;
