@@ -41,6 +41,13 @@ static inline bool symmetry_is_screw(const imp_symmetry *found)
     return found->kind == IMP_SYMMETRY_SCREW_RIGHT || found->kind == IMP_SYMMETRY_SCREW_LEFT;
 }
 
+/* Whether rotations about a line, or all about its center, map the surface onto itself. */
+static inline bool symmetry_is_round(const imp_symmetry *found)
+{
+    const uint32_t closed = IMP_SYMMETRY_CLOSED | IMP_SYMMETRY_ZONE;
+    return (found->is_closed & closed) != 0 && !symmetry_is_screw(found);
+}
+
 /* Returns the rotations that keep the whole surface; of several pieces, if of_pieces, those that
  * keep each of them. IMP_STATUS_UNBOUNDED: none are known. */
 imp_status surface_closed_symmetry(const surface *s, bool of_pieces, imp_symmetry *found);

@@ -67,7 +67,7 @@ static imp_status curve_at(const curve *c, double w, double x[3])
 /* The parameter along which rotations about an axis take points to each other; -1: none. */
 static int orbit_of(const imp_symmetry *found)
 {
-    if ((found->is_closed & IMP_SYMMETRY_CLOSED) == 0 || symmetry_is_screw(found)) return -1;
+    if (!symmetry_is_round(found)) return -1;
     if ((found->is_closed & IMP_SYMMETRY_ORBIT_U) != 0) return 0;
     return (found->is_closed & IMP_SYMMETRY_ORBIT_V) != 0 ? 1 : -1;
 }

@@ -8,8 +8,9 @@
 
 bool symmetry_is_sane(const imp_symmetry *found)
 {
-    const uint32_t orbits = IMP_SYMMETRY_ORBIT_U | IMP_SYMMETRY_ORBIT_V,
-                   all = IMP_SYMMETRY_CLOSED | IMP_SYMMETRY_ORBIT_ALL | orbits;
+    const uint32_t of_axis = IMP_SYMMETRY_ORBIT_U | IMP_SYMMETRY_ORBIT_V | IMP_SYMMETRY_ZONE,
+                   of_ball = IMP_SYMMETRY_ORBIT_ALL | IMP_SYMMETRY_ZONE,
+                   all = IMP_SYMMETRY_CLOSED | of_axis | of_ball;
     double most = 0;
     if (found->kind < IMP_SYMMETRY_ABOUT_POINT || found->kind > IMP_SYMMETRY_SCREW_LEFT)
         return false;
@@ -20,8 +21,8 @@ bool symmetry_is_sane(const imp_symmetry *found)
         if (fabs(found->axis[i]) > most) most = fabs(found->axis[i]);
     }
     if (found->is_closed > all) return false;
-    if (!is_ball && (found->is_closed & IMP_SYMMETRY_ORBIT_ALL) != 0) return false;
-    if (is_ball && (found->is_closed & orbits) == 0) return true;
+    if (!is_ball && (found->is_closed & of_ball) != 0) return false;
+    if (is_ball && (found->is_closed & of_axis) == 0) return true;
     return most > AXIS_LEAST && most < AXIS_MOST;
 }
 
@@ -46,24 +47,35 @@ static imp_status closed_alone(const surface *s, imp_symmetry *found)
 {
     const imp_status status = surface_symmetry(s, found);
     if (status != IMP_STATUS_OK) return status;
-    if ((found->is_closed & IMP_SYMMETRY_CLOSED) == 0 || symmetry_is_screw(found))
-        return IMP_STATUS_UNBOUNDED;
-    if (found->kind != IMP_SYMMETRY_ABOUT_POINT) found->kind = IMP_SYMMETRY_ABOUT_LINE;
+    if (!symmetry_is_round(found)) return IMP_STATUS_UNBOUNDED;
+    const bool is_whole = (found->is_closed & IMP_SYMMETRY_CLOSED) != 0;
+    if (found->kind != IMP_SYMMETRY_ABOUT_POINT || !is_whole) found->kind = IMP_SYMMETRY_ABOUT_LINE;
     return IMP_STATUS_OK;
 }
 
-/* Whether x lies on the line of `line`, or is its center: in exact arithmetic, so that few lines
- * other than those along coordinates are known to hold another point than their center. */
+/* Whether x is y + d. Lemma (Knuth's sum of two): the rounding of w = x - y is (x - (w - b)) - (y +
+ * b), b = w - x, exactly. */
+static bool is_exact_sum(double x, double y, double d)
+{
+    const double w = x - y, b = w - x;
+    return w == d && (x - (w - b)) - (y + b) == 0;
+}
+
+/* Whether x lies on the line of `line`, or is its center or the end of the axis from there: in
+ * exact arithmetic, so that few lines other than those along coordinates are known to hold another
+ * point. */
 static bool is_on_line(const imp_symmetry *line, const double x[3])
 {
     int along = 0;
-    bool is_center = true, is_beside = false;
+    bool is_center = true, is_end = true, is_beside = false;
     for (int i = 0; i < 3; ++i) {
         along += line->axis[i] != 0;
         is_center = is_center && x[i] == line->center[i];
+        is_end = is_end && is_exact_sum(x[i], line->center[i], line->axis[i]);
         is_beside = is_beside || (line->axis[i] == 0 && x[i] != line->center[i]);
     }
-    return is_center || (line->kind != IMP_SYMMETRY_ABOUT_POINT && along == 1 && !is_beside);
+    const bool is_along = is_end || (along == 1 && !is_beside);
+    return is_center || (line->kind != IMP_SYMMETRY_ABOUT_POINT && is_along);
 }
 
 static bool has_axis_of(const imp_symmetry *x, const imp_symmetry *line)

@@ -125,23 +125,33 @@ static imp_model capsule_gap(const void *self, imp_model x, imp_model y, imp_mod
 }
 IMP_DISTANCE_FORMULA(capsule_gap)
 
-/* The axis of a symmetry must be exact. Where to - from is rounded, no symmetry is reported. A half
- * sphere turned about its middle is not itself. */
+/* Sets the axis of a symmetry, which must be exact. False: to - from is rounded, or too long. */
+static bool set_axis(const capsule_instance *s, double axis[3])
+{
+    double greatest = 0;
+    for (int i = 0; i < 3; ++i) {
+        axis[i] = s->along[i].value;
+        greatest = imp_larger(greatest, fabs(axis[i]));
+    }
+    if (greatest == 0) axis[2] = 1;
+    return s->is_exact && greatest <= AXIS_MAX;
+}
+
+/* A half sphere turned about its middle is not itself, but about the axis it is. */
 static imp_status capsule_symmetry(const void *self, imp_symmetry *symmetry)
 {
     const capsule_instance *s = self;
+    const bool has_axis = set_axis(s, symmetry->axis);
     memcpy(symmetry->center, s->end, sizeof s->end);
-    symmetry->kind = s->part == LATERAL ? IMP_SYMMETRY_ALONG_LINE : IMP_SYMMETRY_ABOUT_POINT;
-    symmetry->is_closed =
-        s->part == LATERAL ? IMP_SYMMETRY_CLOSED | IMP_SYMMETRY_ORBIT_U : IMP_SYMMETRY_ORBIT_ALL;
-    if (s->part != LATERAL) return IMP_STATUS_OK;
-    double greatest = 0;
-    for (int i = 0; i < 3; ++i) {
-        symmetry->axis[i] = s->along[i].value;
-        greatest = imp_larger(greatest, fabs(symmetry->axis[i]));
+    if (s->part == LATERAL) {
+        symmetry->kind = IMP_SYMMETRY_ALONG_LINE;
+        symmetry->is_closed = IMP_SYMMETRY_CLOSED | IMP_SYMMETRY_ORBIT_U;
+        return has_axis ? IMP_STATUS_OK : IMP_STATUS_UNBOUNDED;
     }
-    if (greatest == 0) symmetry->axis[2] = 1;
-    return s->is_exact && greatest <= AXIS_MAX ? IMP_STATUS_OK : IMP_STATUS_UNBOUNDED;
+    symmetry->kind = IMP_SYMMETRY_ABOUT_POINT;
+    symmetry->is_closed = IMP_SYMMETRY_ORBIT_ALL;
+    if (has_axis) symmetry->is_closed |= IMP_SYMMETRY_ORBIT_U | IMP_SYMMETRY_ZONE;
+    return IMP_STATUS_OK;
 }
 
 static imp_status capsule_write_formula(const void *self, const imp_text_sink *to)

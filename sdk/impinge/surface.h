@@ -311,12 +311,16 @@ enum {
  * ORBIT_U: points of the same v and t are taken to each other by rotations about the line through
  * the center along the axis (which then counts for ABOUT_POINT, too); ORBIT_V: points of the same u
  * and t. ORBIT_ALL, for ABOUT_POINT only: all points of the same t are as far from the center. One
- * point then stands for its whole orbit where two surfaces have an axis or a center in common. */
+ * point then stands for its whole orbit where two surfaces have an axis or a center in common.
+ *
+ * ZONE, for ABOUT_POINT only: the surface is no whole ball, but rotations about the line through
+ * the center along the axis (which then counts) map it onto itself: a zone or a cap of a sphere. */
 enum {
     IMP_SYMMETRY_CLOSED = 1,
     IMP_SYMMETRY_ORBIT_U = 2,
     IMP_SYMMETRY_ORBIT_V = 4,
-    IMP_SYMMETRY_ORBIT_ALL = 8
+    IMP_SYMMETRY_ORBIT_ALL = 8,
+    IMP_SYMMETRY_ZONE = 16
 };
 
 typedef struct imp_symmetry {

@@ -134,7 +134,8 @@ load ../support/check_helper
     local missed
     missed=$(missed distance --only distances)
     [ "$missed" = distance_no_mistake ]
-    [ "$(wc -l <seen)" -eq 14 ]
+    [ "$(wc -l <seen)" -eq 15 ]
+    shows distances distance symmetry_zone 'symmetry says is_closed, but turning by '
     shows distances distance symmetry_orbit 'symmetry says IMP_SYMMETRY_ORBIT_V, but no rotation takes '
     shows distances distance symmetry_open 'symmetry says is_closed, but turning by '
     shows distances distance distance_farthest 'distance claims at least '

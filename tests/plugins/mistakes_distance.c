@@ -170,6 +170,57 @@ static const imp_surface_type symmetry_half_type = {.struct_size = sizeof(imp_su
                                                     .distance = half_distance,
                                                     .symmetry = symmetry};
 
+static void zone_domain(const void *self, double lo[3], double hi[3])
+{
+    pipe_domain(self, lo, hi);
+    lo[1] = 0;
+    hi[1] = 0.5 * IMP_PI_UPPER;
+}
+
+static void zone_formula(const void *self, imp_model u, imp_model v, imp_model t, imp_model out[3])
+{
+    imp_model sine[2], cosine[2];
+    (void)self, (void)t;
+    imp_sincos(u, &sine[0], &cosine[0]);
+    imp_sincos(v, &sine[1], &cosine[1]);
+    out[0] = imp_mul(cosine[1], cosine[0]);
+    out[1] = imp_mul(cosine[1], sine[0]);
+    out[2] = sine[1];
+}
+IMP_SURFACE_FORMULA(zone_formula)
+
+static imp_model zone_gap(const void *self, imp_model x, imp_model y, imp_model z, imp_model t)
+{
+    const imp_model m[3] = {x, y, z};
+    (void)self, (void)t;
+    return imp_shift(imp_sqrt(imp_dot3(m, m)), -1);
+}
+IMP_DISTANCE_FORMULA(zone_gap)
+
+static imp_status zone_symmetry(const void *self, imp_symmetry *symmetry)
+{
+    (void)self;
+    symmetry->kind = IMP_SYMMETRY_ABOUT_POINT;
+    symmetry->is_closed = IMP_SYMMETRY_ZONE;
+    symmetry->axis[0] = 1;
+    return IMP_STATUS_OK;
+}
+
+static const imp_surface_type symmetry_zone_type = {.struct_size = sizeof(imp_surface_type),
+                                                    .parameter_size = sizeof(imp_parameter),
+                                                    .name = "symmetry_zone",
+                                                    .summary = "half a sphere, about another axis",
+                                                    .equation = "(cos v cos u, cos v sin u, sin v)",
+                                                    .example = "symmetry_zone",
+                                                    .create = tiny_create,
+                                                    .destroy = tiny_destroy,
+                                                    .domain = zone_domain,
+                                                    .eval = zone_formula_eval,
+                                                    .rate = zone_formula_rate,
+                                                    .include = zone_formula_include,
+                                                    .distance = zone_gap_distance,
+                                                    .symmetry = zone_symmetry};
+
 #define MISTAKEN(NAME, DISTANCE, SYMMETRY)                                                         \
     static const imp_surface_type NAME##_type = PIPE_TYPE(#NAME, DISTANCE, SYMMETRY)
 MISTAKEN(distance_no_mistake, pipe_gap_distance, closed_symmetry);
@@ -190,8 +241,7 @@ static const imp_surface_type *const types[] = {
     &distance_farthest_type,   &distance_late_type,  &distance_early_type,
     &distance_spot_type,       &distance_axial_type, &symmetry_plate_type,
     &symmetry_leaning_type,    &symmetry_ended_type, &symmetry_half_type,
-    &symmetry_open_type,       &symmetry_orbit_type,
-};
+    &symmetry_open_type,       &symmetry_orbit_type, &symmetry_zone_type};
 static const imp_surface_factory factory = {sizeof factory, sizeof types / sizeof *types, types};
 
 static const void *get_factory(const char *id)

@@ -337,6 +337,8 @@ START_TEST(slices_of_what_turns_within_itself_cost_little)
         double apart;
     } row[] = {{"cylinder radius=0.4 ends=true ! rotate axis=0,0,1 rate=100",
                 "box size=1,1,1 center=0.901,0,0.02", 4, 60, 0.001},
+               {"capsule radius=0.3 ! rotate axis=0,0,1 rate=20 ! translate velocity=0,0.3,0",
+                "box size=0.5,1,2 center=0.551,0.1,0.2", 4, 60, 0.001},
                {"torus ! rotate axis=0,0,1 rate=20 ! rotate axis=1,0,0 angle=[0.3] ! translate "
                 "velocity=0,0,0.1",
                 "sphere radius=0.5 center=4,0.3,0.1", 3000, 50, NAN},
@@ -412,7 +414,7 @@ START_TEST(each_point_of_a_surface_held_is_one_of_the_surface)
         surface_free(still);
         imp_scene_free(scene);
     }
-    ck_assert_int_gt(2 * turns, SCENES); /* not capsules */
+    ck_assert_int_gt(4 * turns, 3 * SCENES);
 }
 END_TEST
 
@@ -425,6 +427,9 @@ START_TEST(what_turns_beside_its_line_is_not_held)
         "cylinder ! rotate axis=0,1e-9,1 rate=2",
         "torus ! rotate axis=1,0,0 rate=2",
         "box ! rotate axis=0,0,1 rate=2",
+        "capsule ! rotate axis=1,0,0 rate=2",
+        "capsule ! rotate axis=0,0,1 center=1e-9,0,0 rate=2",
+        "capsule to=0.25,0.5,1 ! rotate axis=0.25,0.5,1.0000001 rate=2",
         "spokes ! rotate axis=0,0,1 rate=2",
         "cone ! translate velocity=0,0,1",
         "cylinder ! scale factor=[2,2,2] ! rotate axis=0,0,1 rate=2"};
@@ -464,6 +469,10 @@ START_TEST(points_of_surfaces_held_are_found_wherever_they_are)
         {"cylinder radius=0.5 height=1 ! rotate axis=1e-8,0,1 rate=30 ! translate "
          "offset=[[2,0.1,0],[-2,0,0]]",
          "sphere radius=0.3", 1e-2},
+        {"capsule radius=0.3 from=1,1,1 to=1.25,1.5,2 ! rotate axis=0.25,0.5,1 center=1,1,1 "
+         "rate=20 "
+         "! translate velocity=-1.5,-1,-0.5",
+         "sphere radius=0.3 center=0,0.6,0.9", 1e-8},
         {"spokes ! rotate axis=0,0,1 rate=5 ! translate offset=[[3,-0.1,0.1],[-3,0,0]]",
          "sphere radius=0.3", 1e-6}};
     for (size_t k = 0; k < sizeof row / sizeof *row; ++k) {

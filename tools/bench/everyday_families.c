@@ -297,6 +297,12 @@ const everyday_family everyday_families[] = {
     {"tyre on a table", FLOOR, TUMBLE, TORUS("0.75", "0.25"),
      TURN(Z_AXIS, "-1") "," LAID "," PUT("-0.5,0,@1") "," MOVE("1,0,0"), BOND_PARENT, 0, false,
      FIVE, 50, "", ""},
+    {"capsule that rolls on a table", FLOOR, TUMBLE, CAPSULE("0.3", "0,0,-0.45", "0,0,0.45"),
+     TURN(Z_AXIS, "-3") "," LAID "," PUT("-0.7,0,@0.3") "," MOVE("0.9,0,0"), BOND_PARENT, 0, false,
+     FIVE, 50, "", ""},
+    {"capsule that spins beside a box", BOX("0.5,1,1", "@0.45,0,0.02"), "",
+     CAPSULE("0.2", "0,0,-0.3", "0,0,0.3"), TURN(Z_AXIS, "500") "," MOVE("0,0.4,0"), BOND_NONE, 0,
+     false, FIVE, 50, "", ""},
     {"roller under a sheet that is drawn", SHEET, MOVE("0.5,0,0"), CAN("0.3", "0.9", "0,0,0"),
      TURN(Z_AXIS, "20") "," LAID "," PUT("0,0,-0.3"), BOND_NONE, 0, false, FIVE, 50, "", ""},
     /* sharing motion that is not at the end of their maps, or that cancels */

@@ -234,7 +234,8 @@ bool orbit_check(const subject *s, uint64_t *random, const imp_symmetry *of)
 bool closed_check(const subject *s, uint64_t *random, const imp_symmetry *of)
 {
     imp_symmetry rotations = *of;
-    if (of->kind != IMP_SYMMETRY_ABOUT_POINT && !is_screw(of))
+    const bool is_whole = (of->is_closed & IMP_SYMMETRY_CLOSED) != 0;
+    if ((of->kind != IMP_SYMMETRY_ABOUT_POINT || !is_whole) && !is_screw(of))
         rotations.kind = IMP_SYMMETRY_ABOUT_LINE;
     for (int k = 0; k < AIMS * POINTS; ++k)
         if (!judge(s, random, &rotations, (aim)(k % AIMS))) return false;

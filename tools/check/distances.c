@@ -108,8 +108,9 @@ static imp_region draw_region(const hunt *h)
 
 static bool judge_symmetry(const subject *s, const imp_symmetry *found)
 {
-    const uint32_t lines = IMP_SYMMETRY_ORBIT_U | IMP_SYMMETRY_ORBIT_V,
-                   flags = IMP_SYMMETRY_CLOSED | IMP_SYMMETRY_ORBIT_ALL | lines;
+    const uint32_t of_axis = IMP_SYMMETRY_ORBIT_U | IMP_SYMMETRY_ORBIT_V | IMP_SYMMETRY_ZONE,
+                   of_ball = IMP_SYMMETRY_ORBIT_ALL | IMP_SYMMETRY_ZONE,
+                   flags = IMP_SYMMETRY_CLOSED | of_axis | of_ball;
     const bool is_ball = found->kind == IMP_SYMMETRY_ABOUT_POINT;
     bool sane = found->kind >= IMP_SYMMETRY_ABOUT_POINT && found->kind <= IMP_SYMMETRY_SCREW_LEFT;
     double most = 0;
@@ -117,10 +118,9 @@ static bool judge_symmetry(const subject *s, const imp_symmetry *found)
         sane = sane && isfinite(found->center[i]) && isfinite(found->axis[i]);
         most = fmax(most, fabs(found->axis[i]));
     }
-    sane = sane && found->is_closed <= flags &&
-           (is_ball || (found->is_closed & IMP_SYMMETRY_ORBIT_ALL) == 0) &&
+    sane = sane && found->is_closed <= flags && (is_ball || (found->is_closed & of_ball) == 0) &&
            (found->kind <= IMP_SYMMETRY_ACROSS_LINE || found->is_closed <= IMP_SYMMETRY_CLOSED);
-    const bool has_axis = !is_ball || (found->is_closed & lines) != 0;
+    const bool has_axis = !is_ball || (found->is_closed & of_axis) != 0;
     sane = sane && (!has_axis || (most >= 1e-100 && most <= 1e100));
     return sane ||
            answer_fail(s->answer, "the symmetry has an unknown kind or flag, a center or an axis "
@@ -298,7 +298,8 @@ void distances_check(const subject *s, uint64_t *random, double effort)
     }
     h.has_symmetry = status == IMP_STATUS_OK;
     if (h.has_symmetry && !judge_symmetry(s, &h.symmetry)) return;
-    const bool is_closed = h.has_symmetry && (h.symmetry.is_closed & IMP_SYMMETRY_CLOSED) != 0;
+    const uint32_t closed = IMP_SYMMETRY_CLOSED | IMP_SYMMETRY_ZONE;
+    const bool is_closed = h.has_symmetry && (h.symmetry.is_closed & closed) != 0;
     if (is_closed && !closed_check(s, random, &h.symmetry)) return;
     if (h.has_symmetry && !orbit_check(s, random, &h.symmetry)) return;
     double middle[3];
