@@ -98,22 +98,60 @@ static void write_decimal(char *to, bool minus, uint64_t m, int k)
     *to = '\0';
 }
 
+/* A decimal: m / 10^k. */
+typedef struct decimal {
+    uint64_t m;
+    int k;
+    double power; /* 10^k */
+} decimal;
+
+/* Rounds 1e-4 <= x < 1e15 to 15 digits, ties to even, without zeros behind the point.
+ * Lemma. 10^k is a double up to k = 22, and fma gives what the product's rounding leaves, so that
+ * product + left is x 10^k exactly. It is below 2^50, and its whole part exact: what is beyond a
+ * half is compared exactly. k is chosen by a rounded product: where that reaches 10^15 and x 10^k
+ * does not, it lies within 1/8 of 10^15, and one digit less writes the same number. */
+static decimal fifteen_digits(double x)
+{
+    decimal d = {.k = 0, .power = 1};
+    while (x * (d.power * 10) < 1e15) d.k += 1, d.power *= 10;
+    const double product = x * d.power, left = fma(x, d.power, -product);
+    d.m = (uint64_t)product;
+    const double beyond = product - (double)d.m - 0.5;
+    if (beyond > -left || (beyond == -left && d.m % 2 == 1)) d.m += 1;
+    for (; d.k > 0 && d.m % 10 == 0; d.m /= 10) d.k -= 1, d.power /= 10;
+    return d;
+}
+
+/* Whether x has a decimal as text_fifteen_digits writes it. */
+static bool is_plain(double x)
+{
+    const double size = fabs(x);
+    return (size >= 1e-4 && size < 1e15 - 0.5) || (size == 0 && !signbit(x));
+}
+
+static decimal decimal_of(double x)
+{
+    return x == 0 ? (decimal){.power = 1} : fifteen_digits(fabs(x));
+}
+
+bool text_fifteen_digits(char to[TEXT_SHORT + 1], double x)
+{
+    if (!is_plain(x)) return false;
+    const decimal d = decimal_of(x);
+    write_decimal(to, x < 0, d.m, d.k);
+    return true;
+}
+
 /* Lemma. Let m < 10^15 be whole and k <= 19, so that m and 10^k are doubles (10^19 = 2^19 5^19, and
  * 5^19 < 2^53), and let their quotient round to x. Decimals of 15 digits are farther apart than
- * doubles, so that the one nearest to x is m / 10^k, which "%.15g" writes: without an exponent from
- * 1e-4 on, and without zeros behind the point, which k being least excludes too. */
+ * doubles, so that the one nearest to x is m / 10^k, which "%.15g" writes. */
 bool text_short_number(char to[TEXT_SHORT + 1], double x)
 {
-    const double size = fabs(x), most = 1e15;
-    double power = 1;
-    if (!(size >= 1e-4 && size < most) && !(size == 0 && !signbit(x))) return false;
-    for (int k = 0; k < 19 && size * power < most - 0.5; ++k, power *= 10) {
-        const uint64_t m = (uint64_t)(size * power + 0.5);
-        if ((double)m / power != size) continue;
-        write_decimal(to, x < 0, m, k);
-        return true;
-    }
-    return false;
+    if (!is_plain(x)) return false;
+    const decimal d = decimal_of(x);
+    if ((double)d.m / d.power != fabs(x)) return false;
+    write_decimal(to, x < 0, d.m, d.k);
+    return true;
 }
 
 text_number text_of_number(double x)

@@ -30,10 +30,13 @@ void text_clean(char *s);
 void text_append(char *buffer, size_t size, const char *format, ...)
     __attribute__((format(printf, 3, 4)));
 
-/* Writes x as "%.15g" does in the C locale, in a fraction of its time, if that is a decimal without
- * exponent that reads back as x; it takes at most TEXT_SHORT characters and a final NUL. False: it
- * is not, and nothing is written. */
+/* Writes x as "%.15g" does in the C locale, in a fraction of its time, if x is 0, or at least 1e-4
+ * in size and written without an exponent; it takes at most TEXT_SHORT characters and a final NUL.
+ * False: it is neither, or -0, and nothing is written. */
 enum { TEXT_SHORT = 24 };
+bool text_fifteen_digits(char to[TEXT_SHORT + 1], double x);
+
+/* Does so only where the text reads back as x. */
 bool text_short_number(char to[TEXT_SHORT + 1], double x);
 
 /* Writes the shortest decimal that reads back as x, with a point in every locale. */

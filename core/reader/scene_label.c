@@ -13,7 +13,7 @@
 /* Writes a number as "%.15g" does. False: it is too long. */
 static bool write_number(char *text, size_t size, double x)
 {
-    if (size > TEXT_SHORT && text_short_number(text, x)) return true;
+    if (size > TEXT_SHORT && text_fifteen_digits(text, x)) return true;
     const int length = snprintf(text, size, "%.15g", x);
     return length >= 0 && (size_t)length < size;
 }

@@ -345,6 +345,42 @@ START_TEST(short_numbers_are_written_as_by_printf)
 }
 END_TEST
 
+static void check_fifteen_digits(double x)
+{
+    char found[TEXT_SHORT + 1], expected[40];
+    snprintf(expected, sizeof expected, "%.15g", x);
+    const bool is_large = x == 0 || fabs(x) >= 1e-4;
+    const bool is_plain = is_large && strchr(expected, 'e') == NULL && strcmp(expected, "-0") != 0;
+    ck_assert_msg(text_fifteen_digits(found, x) == is_plain, "%a, %s", x, expected);
+    ck_assert_msg(!is_plain || strcmp(found, expected) == 0, "%a: %s, not %s", x, found, expected);
+}
+
+/* Quarters and their kin have ties, which go to the even digit. */
+START_TEST(fifteen_digits_are_those_of_printf)
+{
+    uint64_t state = suite_seed();
+    const int times = suite_times(100000);
+    for (int k = 0; k < times; ++k) {
+        const double x = random_between(&state, -1, 1) * random_power(&state, -16, 52);
+        const double part = (double)(1 << random_bits(&state) % 12);
+        check_fifteen_digits(x);
+        check_fifteen_digits(rint(x * part) / part);
+    }
+    for (double power = 1e-5; power < 1e17; power *= 10) {
+        double below = power, above = power;
+        for (int k = 0; k < 10; ++k) {
+            check_fifteen_digits(below), check_fifteen_digits(-above);
+            below = nextafter(below, 0), above = nextafter(above, INFINITY);
+        }
+    }
+    check_fifteen_digits(0), check_fifteen_digits(999999999999999.5);
+    check_fifteen_digits(100000000000000.5), check_fifteen_digits(100000000000001.5);
+    char found[TEXT_SHORT + 1];
+    ck_assert(!text_fifteen_digits(found, -0.0) && !text_fifteen_digits(found, NAN));
+    ck_assert(!text_fifteen_digits(found, INFINITY));
+}
+END_TEST
+
 START_TEST(numbers_in_words_read_back_as_themselves)
 {
     uint64_t state = suite_seed();
@@ -417,5 +453,5 @@ SUITE_MAIN("parameters", every_code_has_its_phrase, numbers_are_taken_as_written
            unknown_names_are_refused_with_the_nearest, rows_longer_than_ours_are_stepped_over,
            complaints_of_a_type_get_their_place, a_place_too_long_to_print_is_cut,
            distances_count_changes_and_swaps, lines_are_utf8_without_control_characters,
-           short_numbers_are_written_as_by_printf, numbers_in_words_read_back_as_themselves,
-           errors_are_cut_between_characters)
+           short_numbers_are_written_as_by_printf, fifteen_digits_are_those_of_printf,
+           numbers_in_words_read_back_as_themselves, errors_are_cut_between_characters)
