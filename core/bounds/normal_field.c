@@ -4,6 +4,7 @@
 
 #include "core/bounds/normal_field.h"
 
+#include "core/base/rounding.h"
 #include "core/bounds/dividing_surface.h"
 #include "core/bounds/normal_height.h"
 #include "core/bounds/tuning.h"
@@ -196,10 +197,36 @@ static bool tilt_frame(frame *f, const double tilt[2])
     return true;
 }
 
-/* Makes the frame, the slices and path in it, and how the field turns. False: there is none. */
+/* Whether a face is a plane across n over the window, as far as doubles tell: its terms of second
+ * order, as those of a triangle's corners or of a parallelogram that turns within its plane, lie in
+ * it. A dot is off by PLANE_ROUNDING u of its terms' sizes, n itself by twice that. */
+enum { PLANE_ROUNDING = 4 };
+static bool is_plane(const slice *s, vec3 n)
+{
+    const double *const terms[] = {s->quu, s->quv, s->qvv, s->quw, s->qvw};
+    double off = 0, size = 0;
+    for (int j = 0; j < SECONDS; ++j) {
+        const double x = n.x[0] * terms[j][0], y = n.x[1] * terms[j][1], z = n.x[2] * terms[j][2];
+        off += fabs(x + y + z);
+        size += fabs(x) + fabs(y) + fabs(z);
+    }
+    return off <= 3 * PLANE_ROUNDING * UNIT_ROUNDOFF * size;
+}
+
+/* Whether the field follows one face, which is a plane: K and all numbers by which it turns are
+ * then mere rounding, and it is the face's own normal, along which fixed axes have cut already, by
+ * fewer roundings (AXIS_ROUNDING). */
+static bool is_fixed(const difference *r, const frame *f)
+{
+    const bool a = f->side[0] == TOUCH_FACE, b = f->side[1] == TOUCH_FACE;
+    return a != b && r->posed == 0 && is_plane(a ? &r->a : &r->b, f->n);
+}
+
+/* Makes the frame, the slices and path in it, and how the field turns. False: there is none, or it
+ * shows nothing that fixed axes did not. */
 static bool begin(const difference *r, vec3 axis, frame *f, local_view *v, turns *m)
 {
-    if (!normal_frame_between(r, axis, f)) return false;
+    if (!normal_frame_between(r, axis, f) || is_fixed(r, f)) return false;
     *v = view_in(f, r);
     if (!normal_turns_choose(f, &v->a, &v->b, &v->x, m)) return false;
     if (m->tilt[0] == 0 && m->tilt[1] == 0) return true;
