@@ -105,20 +105,38 @@ typedef struct decimal {
     double power; /* 10^k */
 } decimal;
 
+/* Powers of ten, of which each number of digits up to 31 is a sum without repetition. */
+enum { STRIDES = 5 };
+static const decimal strides[STRIDES] = {{10000000000000000, 16, 1e16},
+                                         {100000000, 8, 1e8},
+                                         {10000, 4, 1e4},
+                                         {100, 2, 1e2},
+                                         {10, 1, 10}};
+
 /* Rounds 1e-4 <= x < 1e15 to 15 digits, ties to even, without zeros behind the point.
  * Lemma. 10^k is a double up to k = 22, and fma gives what the product's rounding leaves, so that
  * product + left is x 10^k exactly. It is below 2^50, and its whole part exact: what is beyond a
- * half is compared exactly. k is chosen by a rounded product: where that reaches 10^15 and x 10^k
- * does not, it lies within 1/8 of 10^15, and one digit less writes the same number. */
+ * half is compared exactly. k, at most 19, is chosen by a rounded product: where that reaches 10^15
+ * and x 10^k does not, it lies within 1/8 of 10^15, and one digit less writes the same number. Then
+ * m has at most 15 zeros that k counts. */
 static decimal fifteen_digits(double x)
 {
     decimal d = {.k = 0, .power = 1};
-    while (x * (d.power * 10) < 1e15) d.k += 1, d.power *= 10;
+    for (int j = 0; j < STRIDES; ++j)
+        if (x * (d.power * strides[j].power) < 1e15) {
+            d.k += strides[j].k;
+            d.power *= strides[j].power;
+        }
     const double product = x * d.power, left = fma(x, d.power, -product);
     d.m = (uint64_t)product;
     const double beyond = product - (double)d.m - 0.5;
     if (beyond > -left || (beyond == -left && d.m % 2 == 1)) d.m += 1;
-    for (; d.k > 0 && d.m % 10 == 0; d.m /= 10) d.k -= 1, d.power /= 10;
+    for (int j = 1; j < STRIDES; ++j)
+        if (d.k >= strides[j].k && d.m % strides[j].m == 0) {
+            d.m /= strides[j].m;
+            d.k -= strides[j].k;
+            d.power /= strides[j].power;
+        }
     return d;
 }
 

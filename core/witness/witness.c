@@ -46,15 +46,27 @@ static imp_code points_at(const surface *s, size_t n, const double (*p)[3], vec3
     return each == IMP_SUCCESS ? together : each;
 }
 
-static imp_code state_at(const search *g, const double *y, search_state *s, imp_error *error)
+static bool is_known(const search_state *from, int side, const double p[3])
+{
+    return from != NULL && p[0] == from->p[side][0] && p[1] == from->p[side][1];
+}
+
+/* Evaluates both points. `from`, unless NULL, is a state of the search: a side that is at its
+ * parameters, such as a point or a corner that holds it, keeps its point. */
+static imp_code state_at(const search *g, const double *y, const search_state *from,
+                         search_state *s, imp_error *error)
 {
     memcpy(s->y, y, sizeof s->y);
     for (int side = 0; side < 2; ++side) {
+        const surface *of = g->nodes[side]->surface;
         search_parameters(g, side, y, s->p[side]);
-        imp_code code = search_point(g->nodes[side]->surface, s->p[side], &s->x[side], NULL, error);
+        if (is_known(from, side, s->p[side])) {
+            s->x[side] = from->x[side];
+            continue;
+        }
+        imp_code code = search_point(of, s->p[side], &s->x[side], NULL, error);
         if (code == IMP_SUCCESS)
-            code = bound_audit_holds_at(g->nodes[side]->surface, g->nodes[side], s->p[side],
-                                        s->x[side].x, error);
+            code = bound_audit_holds_at(of, g->nodes[side], s->p[side], s->x[side].x, error);
         if (code != IMP_SUCCESS) return code;
     }
     s->apart = vec3_sub(s->x[1], s->x[0]);
@@ -82,7 +94,7 @@ static imp_code descend(const search *g, double gamma, search_state *s, imp_erro
             if (!newton_try(&way, s->y, next)) return IMP_SUCCESS;
             if (fabs(newton_promise(&way, s->y, next)) < TUNING_NEWTON_PROMISE * s->gap * s->gap)
                 return IMP_SUCCESS;
-            code = state_at(g, next, &trial, error);
+            code = state_at(g, next, s, &trial, error);
             if (code != IMP_SUCCESS) return code;
             is_better = trial.gap < s->gap;
         }
@@ -133,7 +145,7 @@ static imp_code search_run(const node *const nodes[2], double t, double gamma, b
     search g = {.nodes = nodes, .t = t};
     search_state s;
     search_begin(&g);
-    imp_code code = state_at(&g, (double[NEWTON_UNKNOWNS]){0, 0, 0, 0}, &s, error);
+    imp_code code = state_at(&g, (double[NEWTON_UNKNOWNS]){0, 0, 0, 0}, NULL, &s, error);
     if (code == IMP_SUCCESS && moving) code = descend(&g, gamma, &s, error);
     return code == IMP_SUCCESS ? evaluate_gap(&g, &s, found, error) : code;
 }
@@ -168,7 +180,7 @@ static imp_code turn_at_pole(search *g, int side, const search_state *s, search_
     if (!(edge <= AT_EDGE * (hi[1] - lo[1])) || !(r->d[0] > 0 && r->d[1] > 0)) return IMP_SUCCESS;
     memcpy(y, s->y, sizeof y);
     y[2 * side] += (p[0] + half <= hi[0] ? half : -half) / r->d[0];
-    const imp_code code = state_at(g, y, turned, error);
+    const imp_code code = state_at(g, y, s, turned, error);
     if (code != IMP_SUCCESS) return code;
     *is_pole = vec3_norm(vec3_sub(turned->x[side], s->x[side])) <= SAME_POLE * s->gap;
     for (int j = 0; j < 2 && *is_pole; ++j) {
@@ -203,7 +215,7 @@ imp_code witness_polish(const node *const nodes[2], double t, witness *found, im
         const double p = k % 2 == 0 ? found->u[k / 2] : found->v[k / 2];
         y[k] = r->d[k % 2] > 0 ? (p - r->c[k % 2]) / r->d[k % 2] : 0;
     }
-    imp_code code = state_at(&g, y, &s, error);
+    imp_code code = state_at(&g, y, NULL, &s, error);
     if (code == IMP_SUCCESS) code = descend(&g, s.gap, &s, error);
     if (code == IMP_SUCCESS) code = descend_beyond_poles(&g, &s, error);
     return code == IMP_SUCCESS ? evaluate_gap(&g, &s, found, error) : code;
@@ -216,7 +228,7 @@ imp_code witness_at(const node *const nodes[2], double t, const double y[4], wit
     search g = {.nodes = nodes, .t = t};
     search_state s;
     search_begin(&g);
-    const imp_code code = state_at(&g, y, &s, error);
+    const imp_code code = state_at(&g, y, NULL, &s, error);
     return code == IMP_SUCCESS ? evaluate_gap(&g, &s, found, error) : code;
 }
 
