@@ -39,7 +39,7 @@ typedef struct divided_heights {
  *
  *   by_i                                                        4
  *   binomials and `by` times a number, both factors             2 + 3
- *   sixteen products and their sums, of both squares and z      1 + 22
+ *   a product, and at most 22 sums, of both squares and z       1 + 22
  *   over binomials: two quotients, their product, one product   4
  *   DIVIDED_DEPTH halvings of six steps, of which each rounds a sum and halves it */
 enum { DIVIDED_ROUNDING = 256 };

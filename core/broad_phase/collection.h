@@ -59,7 +59,7 @@ typedef struct collection {
     bool is_nearest;      /* of the candidate_search */
     size_t common_motion; /* number of last maps of all surfaces that all trees leave out */
     double slip_most;     /* of the list; < 0: nothing that slips may replace a surface; length */
-    bool may_rest;        /* of the candidate_search */
+    bool may_rest;        /* of the candidate_search; else no tree is of one moment */
     double slip_useful;   /* of the candidate_search */
     bool may_halve;       /* half planes are used; not without slip_most */
     swept_box *boxes, at_hand[BOXES_AT_HAND];

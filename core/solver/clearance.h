@@ -60,12 +60,14 @@ imp_code clearance_answer(const clearance_search *c, size_t index, imp_reason re
  * than one answer. */
 imp_code clearance_keep_proof(clearance_search *c, proof_logs *logs, imp_error *error);
 
-/* Tells what the answer, which is there, proves: `contact` whether by the search for a violation,
- * else by that for the minimum distance. */
+/* Returns whether the search for a violation proved the answer, else that for the minimum distance
+ * did. */
+bool clearance_is_by_violation(const clearance_search *c);
+
+/* Returns what the answer of task 0 proves, also where a limit ended it. */
 typedef struct clearance_proved {
-    bool contact;
     double apart, from, to; /* nothing is nearer than `apart` then */
 } clearance_proved;
-clearance_proved clearance_what_is_proved(const clearance_search *c);
+clearance_proved clearance_what_is_proved(const clearance_search *c, const imp_clearance *answer);
 
 #endif

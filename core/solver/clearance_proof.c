@@ -19,12 +19,12 @@ imp_code clearance_keep_proof(clearance_search *c, proof_logs *logs, imp_error *
     return IMP_SUCCESS;
 }
 
-clearance_proved clearance_what_is_proved(const clearance_search *c)
+bool clearance_is_by_violation(const clearance_search *c) { return c->by_violation; }
+
+clearance_proved clearance_what_is_proved(const clearance_search *c, const imp_clearance *answer)
 {
-    const imp_clearance *answer = &c->answers[0];
     const bool fails = answer->t_violated >= answer->t_start;
-    clearance_proved proved = {c->by_violation, 0, answer->t_start,
-                               fails ? answer->t_violated : answer->t_end};
+    clearance_proved proved = {0, answer->t_start, fails ? answer->t_violated : answer->t_end};
     if (c->by_violation) { /* before one at the start, nothing is proved */
         proved.apart = fails && !(proved.to > proved.from) ? 0 : clearance_relaxed(c);
         return proved;

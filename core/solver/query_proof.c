@@ -109,16 +109,17 @@ double proof_within_upper(const imp_clearance *answer)
 
 /* A bracket may be far narrower than what was asked for. Then a claim of its lower end can be too
  * tight for the verifier, which encloses by other means; so it has room as though the bracket were
- * as wide as the tolerance. A requirement that is kept is claimed in any case: the search for it
- * had room. */
+ * as wide as the tolerance. Where a limit left it wider than its lower end, the room is that of the
+ * lower end. A requirement that is kept is claimed in any case: the search for it had room. */
 enum { PART_OF_BRACKET = 16 };
 
 double proof_apart_lower(const imp_clearance *answer, const imp_clearance_options *asked)
 {
     const double width = answer->upper - answer->lower, least = asked->tolerance * answer->upper;
-    const double room = !answer->has_witness ? 0.0625 * answer->lower
-                        : width > least      ? width
-                                             : least;
+    const double wanted = width > least ? width : least;
+    const double room = !answer->has_witness     ? 0.0625 * answer->lower
+                        : wanted < answer->lower ? wanted
+                                                 : answer->lower;
     const double claimed = answer->lower - room / PART_OF_BRACKET;
     const double kept =
         answer->verdict == IMP_REQUIREMENT_HOLDS ? tolerances_nearly(asked->required) : 0;
@@ -130,7 +131,7 @@ static imp_code claim_of_clearance(const imp_query *query, proof_claim *claim, i
     imp_clearance answer;
     const imp_code code = clearance_answer(query->clearance, 0, query->reason, &answer, error);
     if (code != IMP_SUCCESS) return code;
-    const clearance_proved proved = clearance_what_is_proved(query->clearance);
+    const clearance_proved proved = clearance_what_is_proved(query->clearance, &answer);
     *claim = (proof_claim){.verdict = word_of(answer.verdict),
                            .apart = proved.apart,
                            .from = proved.from,
@@ -140,6 +141,9 @@ static imp_code claim_of_clearance(const imp_query *query, proof_claim *claim, i
                            answer.required);
     else if (answer.has_witness)
         proof_claim_points(claim, &answer.a, &answer.b, answer.t, proof_within_upper(&answer));
+    else if (!(proved.apart > 0))
+        return error_set(error, IMP_ERROR_USAGE,
+                         "proof: this query was ended by a limit before anything was proved");
     return IMP_SUCCESS;
 }
 
@@ -148,8 +152,8 @@ static imp_code claim_of_clearance(const imp_query *query, proof_claim *claim, i
 /* Whether the query has ended with something that can be written. */
 static imp_code check_ended(const imp_query *query, imp_error *error)
 {
-    const bool complete =
-        query->clearance != NULL ? query->reason == IMP_REASON_NONE : query->candidates.complete;
+    const bool complete = query->candidates.complete &&
+                          (query->clearance == NULL || query->reason != IMP_REASON_MEMORY);
     if (query->proof != NULL && complete && query->reason != IMP_REASON_RUNNING) return IMP_SUCCESS;
     if (query->proof != NULL && query->reason == IMP_REASON_MEMORY) return error_set_memory(error);
     return error_set(error, IMP_ERROR_USAGE, "proof: this query %s",
@@ -162,7 +166,7 @@ static imp_code check_ended(const imp_query *query, imp_error *error)
 proof_search query_proof_search(const imp_query *query)
 {
     const clearance_search *c = query->clearance;
-    const bool contact = c == NULL || clearance_what_is_proved(c).contact;
+    const bool contact = c == NULL || clearance_is_by_violation(c);
     return (proof_search){&query->candidates,
                           contact ? &query->proof->contact : &query->proof->distance};
 }

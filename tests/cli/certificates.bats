@@ -36,6 +36,15 @@ near='sphere center=2.01,0.1,0.2'
     run -0 verify violated.proof
     run -3 "$IMPINGE" pair sphere 'sphere center=2,0,0' --max-pairs 1 --proof open.proof
     run -0 verify open.proof --quiet
+    local apart=('ellipsoid radii=1,2,3 ! rotate rate=3' 'torus center=4,0,0 minor_radius=0.3')
+    run -3 "$IMPINGE" clearance "${apart[@]}" --max-pairs 60 --json --proof open.proof
+    local lower=$(jq '.lower * 0.9' <<<"$output")
+    run -0 verify open.proof
+    local claimed=$(grep -oP 'nearer than \K\S+' <<<"$output")
+    jq -en "$lower > 0 and $claimed > $lower and $claimed <= $lower / 0.9"
+    run -3 "$IMPINGE" clearance "${apart[@]}" --max-pairs 1 --require 0.69 --proof open.proof
+    run -0 verify open.proof
+    [[ $output == *"no two points nearer than 0 from t = 0 to 1"* ]]
 }
 
 @test "certificates of clear, of a distance and of one that is required hold" {

@@ -97,7 +97,7 @@ elaborated() {
     elaborated distance.proof
     sed 's/^apart .*/apart 1/' distance.proof.long >larger
     run -1 kernel larger
-    [[ $output == "refused at byte "*": 'a' u ["*": its axis does not part them" ]]
+    [[ $output == "refused at byte "*": 'a' u ["*": its axis does not part them; was it written by "* ]]
     run -1 verify larger --elaborate out --effort 1000
     [[ $output == "not elaborated: at byte "* ]]
     [ ! -e out ]

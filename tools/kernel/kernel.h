@@ -176,7 +176,7 @@ typedef struct pair {
     const surface *side[2];
     uint32_t *order[2]; /* NULL: the pieces' own */
     size_t choices;     /* of parts of stages, in the last cell */
-    const char *why;    /* the last cell failed; NULL: it is only not seen to be apart */
+    const char *why;    /* the last cell failed */
 } pair;
 
 /* Visits the points of a side in a cell: of each piece and choice of parts, as slopes, at values of

@@ -12,7 +12,7 @@ static bool refuse(tree *r, const cell *c)
     const range *a = c->uv[0], *b = c->uv[1], t = c->clocks[0];
     return bytes_refuse(r->w->in, "'%.60s' u [%g, %g] and '%.60s' u [%g, %g], t [%g, %g]: %s",
                         bodies[r->p.side[0]->body], a->lo, a->hi, bodies[r->p.side[1]->body], b->lo,
-                        b->hi, t.lo, t.hi, r->p.why ? r->p.why : "its axis does not part them");
+                        b->hi, t.lo, t.hi, r->p.why);
 }
 
 /* The high byte comes first. */
@@ -58,7 +58,7 @@ static bool take_leaf(tree *r, const cell *c, unsigned op)
     trees *w = r->w;
     bound b[2] = {{.p = &r->p, .c = c}, {.p = &r->p, .c = c}};
     w->leaves += 1;
-    r->p.why = NULL;
+    r->p.why = "its axis does not part them; was it written by impinge-verify --elaborate?";
     for (int i = 0; i < 3; ++i) {
         if (op == TREES_AXIS || op == TREES_SIDES) r->axis[i] = (int16_t)take_16(w->in);
         b[0].n[i] = b[1].n[i] = op == TREES_ALONE ? 0 : r->axis[i];
