@@ -14,10 +14,14 @@
 
 /* --- Finding ---------------------------------------------------------------------------------- */
 
+/* Most names differ in their first letter, which is read without a call. */
 const found_type *registry_find(const imp_registry *r, imp_type_kind kind, const char *name)
 {
-    for (size_t i = 0; i < r->type_count; ++i)
-        if (r->type[i].kind == kind && strcmp(r->type[i].view.name, name) == 0) return &r->type[i];
+    for (size_t i = 0; i < r->type_count; ++i) {
+        const found_type *one = &r->type[i];
+        if (one->kind != kind || one->view.name[0] != name[0]) continue;
+        if (strcmp(one->view.name, name) == 0) return one;
+    }
     return NULL;
 }
 
