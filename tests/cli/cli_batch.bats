@@ -31,6 +31,20 @@ options=()
         "$(scene | "$IMPINGE" solve - --json | jq -c 'del(.stats, .scene)')" ]
 }
 
+@test "a line has any length, with a line end behind it or the end of the file" {
+    local n lengths="700 4094 4095 4096 4097 4098 8191 8192 8193 65534 65535 65536 65537 300000"
+    for n in $lengths; do
+        printf '%-*s\n' $((n - 1)) "$(scene '"id": '"$n,")"
+        printf '\0%*s\0\n' $((n - 3)) ""
+    done >lines
+    for n in $lengths; do
+        { cat lines && printf '%-*s' "$n" "$(scene '"id": "last",')"; } >scenes.jsonl
+        run -4 --separate-stderr "$IMPINGE" batch scenes.jsonl
+        [ "$(jq -c .id <<<"$output" | paste -sd " ")" = "${lengths// / null } null \"last\"" ]
+        [ "$("$IMPINGE" batch - 2>errors <scenes.jsonl | jq -c .id)" = "$(jq -c .id <<<"$output")" ]
+    done
+}
+
 @test "a bad line is answered by its error, and the rest goes on" {
     run -4 --separate-stderr batch_lines "$(scene '"id": 1,')" 'not JSON' '{"id": 7, "bodies": 3}' \
         "$(scene '"id": 2,')"

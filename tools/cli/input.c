@@ -34,9 +34,14 @@ void input_close(FILE *file)
 
 #define INPUT_MAX ((size_t)1 << 30) /* bytes; as for scene files */
 
-/* Doubles the buffer. */
-static bool grow(input_text *t)
+enum {
+    BLOCK = 4096 /* bytes of a line taken at once, at most; all of them are written twice */
+};
+
+/* Makes room for one more byte at least, and for the NUL of a block. */
+static bool make_room(input_text *t)
 {
+    if (t->length + 1 < t->size) return true;
     const size_t larger = t->size > 0 ? 2 * t->size : 65536;
     char *moved = realloc(t->text, larger);
     if (moved == NULL) return false;
@@ -50,22 +55,53 @@ static size_t most_bytes(const input_text *t)
     return t->most > 0 && t->most < INPUT_MAX ? t->most : INPUT_MAX;
 }
 
+/* Appends up to n bytes of the file's line, n + 1 of which there is room for. True: the line has
+ * ended. A pipe is not waited for behind the end of a line.
+ *
+ * Lemma: the first line end in what fgets leaves of n + 1 line ends is the one that it read, behind
+ * which it wrote its NUL; or, if it read none, the first behind that NUL, or there is none since
+ * the NUL is the last byte. What was read may have NULs. */
+static bool append_of_line(FILE *file, size_t n, input_text *t)
+{
+    char *const block = t->text + t->length;
+    memset(block, '\n', n + 1);
+    if (fgets_unlocked(block, (int)(n + 1), file) == NULL) return false;
+    const char *const end = memchr(block, '\n', n + 1);
+    const bool has_ended = end != NULL && end < block + n && end[1] == '\0';
+    t->length += end == NULL ? n : (size_t)(end - block) + (size_t)has_ended - (size_t)!has_ended;
+    return has_ended;
+}
+
+/* One step of taking the file up to `end`, or its end, whichever is first: *done if that is there.
+ * False: errno says why not. */
+static bool take_block(FILE *file, int end, input_text *t, bool *done)
+{
+    const size_t left = most_bytes(t) - t->length;
+    errno = 0;
+    if (left == 0) {
+        *done = true;
+        if (getc_unlocked(file) == EOF) return !ferror(file);
+        errno = EFBIG;
+        t->is_too_long = true;
+        return false;
+    }
+    if (!make_room(t)) return false;
+    const size_t room = t->size - 1 - t->length, most = room < left ? room : left;
+    if (end == EOF)
+        t->length += fread_unlocked(t->text + t->length, 1, most, file);
+    else
+        *done = append_of_line(file, most < BLOCK ? most : BLOCK, t);
+    if (*done) return true;
+    *done = feof(file) || ferror(file);
+    return !ferror(file);
+}
+
 /* Up to `end`, or the end of the file; false: errno says why not. */
 static bool take(FILE *file, int end, input_text *t)
 {
-    const size_t most = most_bytes(t);
-    for (t->length = 0;;) {
-        if (t->length == t->size && !grow(t)) return false;
-        errno = 0;
-        const int c = getc_unlocked(file);
-        if (c == EOF) return !ferror(file);
-        if (t->length == most) break;
-        t->text[t->length++] = (char)c;
-        if (c == end) return true;
-    }
-    errno = EFBIG;
-    t->is_too_long = true;
-    return false;
+    bool done = false, taken = true;
+    for (t->length = 0; taken && !done;) taken = take_block(file, end, t, &done);
+    return taken;
 }
 
 static bool judge(bool taken, const input_text *t, const char *name, const char *what,
