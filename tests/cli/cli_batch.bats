@@ -71,6 +71,34 @@ options=()
     [ -z "$output" ]
 }
 
+@test "numbers have the fewest digits that read back, unless they are no shorter than 17" {
+    python3 -c '
+import random
+random.seed(7)
+ball = "{\"surfaces\": [{\"type\": \"sphere\"}]}"
+scene = "{\"id\": %r, \"gamma\": %r, \"bodies\": [" + ball + ", " + ball + "]}"
+for k in range(3000):
+    x = random.random() * 10 ** random.randint(-12, 18)
+    x = float("%.*g" % (random.choice([14, 15, 16, 17, 17]), x))
+    print(scene % (x, x))
+' >scenes.jsonl
+    run -0 "$IMPINGE" batch scenes.jsonl
+    python3 -c '
+import re, sys
+count = 0
+for line in sys.stdin:
+    for name in "id", "gamma", "gamma_clear":
+        text = re.search(r"\"%s\":([^,}]*)" % name, line).group(1)
+        exact = re.sub("e[+]?(-?)0*", r"e\1", "%.17g" % float(text))
+        exact += ".0" if exact.isdigit() else ""
+        tries = ["%.*g" % (digits, float(text)) for digits in (15, 16)]
+        shorter = [t for t in tries if len(t) < len(exact) and float(t) == float(text)]
+        assert text == (shorter + [exact])[0], (text, exact, shorter)
+        count += 1
+assert count == 9000, count
+' <<<"$output"
+}
+
 @test "a zero byte in a line is that line's error" {
     run -4 --separate-stderr bash -c '{ printf "{\"id\": 1\0}\n"; echo "$1"; } | "$IMPINGE" batch -' \
         - "$(scene '"id": 2,')"

@@ -90,7 +90,7 @@ static void answer_line(const batch *b, batch_item *item)
     json_t *rest = solve_line(b, item);
     /* A line that is no JSON has no id, and one beyond a limit is not parsed. */
     const bool is_json = !item->failed || item->status == EXIT_UNDECIDED;
-    json_t *id = is_json ? batch_scene_id(&item->text) : batch_line_id(&item->text);
+    json_t *id = is_json ? batch_scene_id(&item->text, !item->failed) : batch_line_id(&item->text);
     item->answer = answer_of(id, rest);
 }
 

@@ -70,12 +70,13 @@ static bool skip_value(member_walk *w)
     return false;
 }
 
-/* Finds the value of the last "id" without parsing the other values. False: the text is no object,
- * or has keys with escapes. */
-static bool find_id(const input_text *line, const char **id, size_t *length)
+/* Finds the value of the last "id", or of the first if the keys are known to differ, without
+ * parsing the other values. False: the text is no object, or has keys with escapes. */
+static bool find_id(const input_text *line, bool keys_differ, const char **id, size_t *length)
 {
     member_walk w = {line->text, line->text + line->length};
     *id = NULL;
+    *length = 0;
     skip_blanks(&w);
     if (w.at == w.end || *w.at != '{') return false;
     do {
@@ -92,15 +93,15 @@ static bool find_id(const input_text *line, const char **id, size_t *length)
         const char *value = w.at;
         if (!skip_value(&w)) return false;
         if (is_id) *id = value, *length = (size_t)(w.at - value);
-    } while (*w.at == ',');
+    } while (*w.at == ',' && !(keys_differ && *id != NULL));
     return true;
 }
 
-json_t *batch_scene_id(const input_text *line)
+json_t *batch_scene_id(const input_text *line, bool was_read)
 {
     const char *text;
     size_t length;
-    if (!find_id(line, &text, &length)) return batch_line_id(line);
+    if (!find_id(line, was_read, &text, &length)) return batch_line_id(line);
     json_t *id = text != NULL ? json_loadb(text, length, JSON_DECODE_ANY, NULL) : NULL;
     return id != NULL ? id : json_null();
 }

@@ -21,7 +21,8 @@ exit_status batch_shard_read(const arguments *args, batch_shard *shard);
 /* Returns the "id" of a scene's line, or null, also if the line is no JSON. NULL: no memory. */
 json_t *batch_line_id(const input_text *line);
 
-/* Like batch_line_id, for a line that is known to be a scene, without parsing all of it again. */
-json_t *batch_scene_id(const input_text *line);
+/* Like batch_line_id, without parsing all of the line again. If it was read as a scene, no two of
+ * its keys are equal, and what follows its id is not looked at. */
+json_t *batch_scene_id(const input_text *line, bool was_read);
 
 #endif

@@ -35,7 +35,7 @@ void input_close(FILE *file)
 #define INPUT_MAX ((size_t)1 << 30) /* bytes; as for scene files */
 
 enum {
-    BLOCK = 4096 /* bytes of a line taken at once, at most; all of them are written twice */
+    BLOCK = 1024 /* bytes of a line taken at once, at most; all of them are written twice */
 };
 
 /* Makes room for one more byte at least, and for the NUL of a block. */

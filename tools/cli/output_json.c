@@ -8,6 +8,8 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include <impinge/decimal.h>
+
 #include "tools/cli/json_memory.h"
 #include "tools/cli/output.h"
 
@@ -43,6 +45,68 @@ static bool may_have_15_digits(const char *text, size_t length, double number)
     return last <= 11 || last >= 89 || fabs(number) < DBL_MIN;
 }
 
+/* Rounds the digits to[first] to to[n - 1] up. False: all are 9. */
+static bool round_up(char *to, size_t first, size_t n)
+{
+    while (n > first && (to[n - 1] == '9' || to[n - 1] == '.')) {
+        if (to[n - 1] == '9') to[n - 1] = '0';
+        --n;
+    }
+    if (n > first) ++to[n - 1];
+    return n > first;
+}
+
+/* Writes the power of ten that ends at `end` as printf does: a sign, and two digits at least.
+ * Returns its length. */
+static size_t write_power(const char *e, const char *end, char *to)
+{
+    const char *const digits = e + (e[1] == '-' || e[1] == '+' ? 2 : 1);
+    const size_t length = (size_t)(end - digits);
+    char *at = to;
+    *at++ = 'e';
+    *at++ = e[1] == '-' ? '-' : '+';
+    if (length < 2) *at++ = '0';
+    memcpy(at, digits, length);
+    at[length] = '\0';
+    return (size_t)(at - to) + length;
+}
+
+/* Writes "%.*g" of a number of which the text is "%.17g" as Jansson writes it, 15 <= digits <= 16.
+ * Returns the length, or at least `length` if it is not shorter; 0: the text does not tell.
+ *
+ * Lemma. The number is within half a unit of the 17th digit of the text. What is cut off is a whole
+ * number of these units; if it is below half a unit of the last digit that is kept, then by at
+ * least one of them, so that the number is rounded down too; if it is above, up. The form is the text's
+ * for all three precisions but with more than 14 digits before the point, with the ".0" of a whole
+ * number, or if it carries into a new digit. */
+static size_t write_rounded(const char *from, size_t length, size_t digits, char to[32])
+{
+    const char *const power = memchr(from, 'e', length);
+    const size_t end = power != NULL ? (size_t)(power - from) : length;
+    const char *const point = memchr(from, '.', end);
+    const size_t first = strspn(from, "-0.");
+    if (point == NULL || point - from > 14 || first >= end || from[end - 1] == '0') return 0;
+    const size_t written = end - first - (point > from + first);
+    if (written <= digits) return length;
+    const size_t cut = written - digits; /* 1 or 2 */
+    size_t n = end - cut;
+    const int half = cut == 1 ? 5 : 50;
+    const int rest = cut == 1 ? from[n] - '0' : 10 * (from[n] - '0') + from[n + 1] - '0';
+    if (cut > 2 || rest == half) return 0;
+    memcpy(to, from, n);
+    if (rest > half && !round_up(to, first, n)) return 0;
+    while (to[n - 1] == '0') --n;
+    if (to[n - 1] == '.') --n;
+    to[n] = '\0';
+    return power != NULL ? n + write_power(power, from + length, to + n) : n;
+}
+
+static double value_of(const char *text, size_t length)
+{
+    double x;
+    return imp_decimal_number(text, length, &x) ? x : strtod(text, NULL);
+}
+
 /* Writes the number at the beginning of `from` to `to`, in the fewest digits that read back
  * exactly. Returns the number of characters written: at most those read. A text of up to 15
  * characters is one of 15 digits already, perhaps with a ".0" that Jansson adds to whole
@@ -56,11 +120,12 @@ static size_t write_shortest(const char *from, char *to)
         memmove(to, from, length);
         return whole ? length - 2 : length;
     }
-    const double number = strtod(from, NULL);
+    const double number = value_of(from, length);
     memmove(to, from, length);
     for (int digits = may_have_15_digits(to, length, number) ? 15 : 16; digits < 17; ++digits) {
-        const size_t shorter = (size_t)snprintf(text, sizeof text, "%.*g", digits, number);
-        if (shorter >= length || strtod(text, NULL) != number) continue;
+        size_t shorter = write_rounded(to, length, (size_t)digits, text);
+        if (shorter == 0) shorter = (size_t)snprintf(text, sizeof text, "%.*g", digits, number);
+        if (shorter >= length || value_of(text, shorter) != number) continue;
         memcpy(to, text, shorter);
         return shorter;
     }
