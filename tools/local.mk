@@ -134,6 +134,7 @@ tools_cli = \
     tools/cli/help_topics.c tools/cli/help_topics.h \
     tools/cli/input.c tools/cli/input.h \
     tools/cli/interrupt.c tools/cli/interrupt.h \
+    tools/cli/json_line.c tools/cli/json_line.h \
     tools/cli/json_memory.c tools/cli/json_memory.h \
     tools/cli/message.c tools/cli/message.h \
     tools/cli/options.c tools/cli/options.h \
@@ -165,6 +166,7 @@ tools_cli = \
     tools/cli/survey_parts.c tools/cli/survey_parts.h \
     tools/cli/survey_parts_run.c \
     tools/cli/series.c tools/cli/series.h \
+    tools/cli/shortest.c tools/cli/shortest.h \
     tools/cli/standard_output.c tools/cli/standard_output.h \
     tools/cli/vec.h \
     tools/cli/verb_batch.c \
