@@ -101,12 +101,12 @@ static double size_of(const piece_cell *cell)
 
 static double reach_of(const piece_cell *cell)
 {
-    double reach = cell->slack;
+    double reach = 0;
     for (int k = 0; k < 4; ++k) {
         const double size = vec3_norm(cell->corner[k]) + cell->radius[k];
         if (size > reach) reach = size;
     }
-    return reach;
+    return reach + cell->slack;
 }
 
 static imp_region all_of(const surface *piece, const time_window *times)
@@ -140,7 +140,6 @@ static void take_hoops(const surface *piece, const time_window *times,
                        piece_cell cells[HOOPS_OF_ONE], size_t *count, imp_status *status)
 {
     imp_symmetry line;
-    *count = 0;
     if (surface_inner_maps(piece) > 0 || !surface_has_symmetry(piece)) return;
     *status = surface_symmetry(piece, &line);
     if (*status != IMP_STATUS_OK) return;
@@ -149,6 +148,7 @@ static void take_hoops(const surface *piece, const time_window *times,
     const int held = u ? PARAMETER_U : PARAMETER_V;
     const imp_region all = all_of(piece, times);
     for (int parts = 1; parts <= HOOPS_OF_ONE; parts *= HOOPS_OF_ONE) {
+        *count = 0;
         for (int k = 0; k < parts; ++k)
             if (!take_part(piece, &all, held, k, parts, &line, &cells[k], status)) return;
         *count = (size_t)parts;

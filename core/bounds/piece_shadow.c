@@ -75,13 +75,16 @@ static int along_line(const void *x, const void *y)
 }
 
 /* Whether the middle one of three points, ordered along the line, is surely not above the others'
- * chord. Rounding: 2 of each product and 2 of its factors, 1 of the difference. */
+ * chord. Rounding: 2 of each product and 2 of its factors, 1 of the difference. Each product loses
+ * up to 2^-1075 more where it underflows. */
 PAD_COVERS(16, 2 * 2 + 2 + 1);
+#define PRODUCTS_UNDERFLOW 0x1p-1070
 static bool is_below(vec3 before, vec3 middle, vec3 after)
 {
+    if (middle.x[1] <= before.x[1] && middle.x[1] <= after.x[1]) return true;
     const vec3 u = vec3_sub(middle, before), v = vec3_sub(after, before);
     const double rise = u.x[1] * v.x[0], chord = u.x[0] * v.x[1];
-    return chord - rise >= 16 * UNIT_ROUNDOFF * (fabs(rise) + fabs(chord));
+    return chord - rise >= 16 * UNIT_ROUNDOFF * (fabs(rise) + fabs(chord)) + PRODUCTS_UNDERFLOW;
 }
 
 /* Keeps the upper hull, but for points in doubt. Lemma. w.p with w[1] <= 0 is no less at a point
@@ -127,7 +130,7 @@ imp_code piece_shadow_take(const piece_course *of, piece_shadow *s, imp_error *e
     for (size_t k = 0; k < cells; ++k) {
         const piece_cell z = piece_shadow_seen(of, &of->other->of[k]);
         for (int j = 0; j < 4; ++j) {
-            const double size = vec3_norm(z.corner[j]) + z.radius[j];
+            const double size = vec3_norm(z.corner[j]) + z.radius[j] + z.slack;
             if (size > s->reach) s->reach = size;
             if (of->course.spins)
                 add_places(s, &z, j, k);

@@ -23,7 +23,7 @@ typedef struct piece_shadow {
     const surface_course *course;
     shadow_point *of;
     size_t count;
-    double reach;       /* >= |x| + radius of each corner, seen from a; length */
+    double reach;       /* >= |x| + radius + slack of each corner, seen from a; length */
     arena_store *store; /* of its memory */
 } piece_shadow;         /* piece_shadow_clear frees */
 

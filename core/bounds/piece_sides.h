@@ -38,7 +38,7 @@ typedef struct piece_corners {
     size_t *piece; /* of each cell, in ascending order */
     size_t count;
     double slack; /* besides that of the cells; length */
-    double reach; /* >= |x| + radius of each corner, and >= each cell's slack; length */
+    double reach; /* >= |x| + radius + its cell's slack of each corner; length */
 } piece_corners;  /* piece_corners_clear frees */
 
 /* Takes all pieces, or at most `most` of them, spread over all, in memory of the store. *known

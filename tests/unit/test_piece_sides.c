@@ -555,12 +555,40 @@ START_TEST(what_is_across_a_line_is_told_far_along_it)
 }
 END_TEST
 
+/* The corner at (1.1, 0, h) turns through the plane x = 1.05, at heights whose products underflow,
+ * too. */
+START_TEST(places_that_are_almost_one_leave_out_no_corner)
+{
+    static const char *const heights[] = {"0.001", "1e-200", "1e-310", "5e-324"};
+    for (size_t k = 0; k < sizeof heights / sizeof *heights; ++k) {
+        char b[TEXT];
+        const char *h = heights[k];
+        snprintf(b, sizeof b,
+                 "mesh points=[[0.5,0.2,0],[1,0,0],[0.4,0,0],[0.5,0.1,%s],[1.1,0,%s],[0.4,0.1,%s],"
+                 "[0.5,0.3,%.17g],[1,0,%.17g],[0.4,0.1,%.17g]] faces=[[0,1,2],[3,4,5],[6,7,8]] ! "
+                 "rotate rate=7",
+                 h, h, h, 2 * strtod(h, NULL), 2 * strtod(h, NULL), 2 * strtod(h, NULL));
+        imp_error error;
+        imp_scene *scene = imp_scene_from_pair(
+            registry, "mesh points=[[1.05,-2,-1],[1.05,2,-1],[1.05,0,2]] faces=[[0,1,2]]", b,
+            &error);
+        const imp_options options = imp_options_default(scene);
+        imp_result r = {.struct_size = sizeof r};
+        ck_assert_int_eq(imp_scene_solve(scene, &options, &r, &error), IMP_SUCCESS);
+        ck_assert_msg(r.verdict == IMP_VERDICT_CONTACT, "%s", b);
+        imp_scene_free(scene);
+    }
+}
+END_TEST
+
 int main(void)
 {
-    const TTest *const tests[] = {
-        no_points_are_nearer_than_is_claimed_of_all_pieces, claims_that_are_too_large_are_found,
-        points_are_where_the_course_says, no_point_is_beyond_what_a_surface_sweeps,
-        what_is_across_a_line_is_told_far_along_it};
+    const TTest *const tests[] = {no_points_are_nearer_than_is_claimed_of_all_pieces,
+                                  claims_that_are_too_large_are_found,
+                                  points_are_where_the_course_says,
+                                  no_point_is_beyond_what_a_surface_sweeps,
+                                  what_is_across_a_line_is_told_far_along_it,
+                                  places_that_are_almost_one_leave_out_no_corner};
     return suite_main_with("piece sides", tests, sizeof tests / sizeof tests[0], open_registry,
                            close_registry);
 }
