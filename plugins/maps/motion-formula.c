@@ -100,9 +100,23 @@ static void motion_destroy(void *self)
     free(s);
 }
 
+/* The texts know only t, but x, y and z are variables of the formula that is printed. */
+static imp_status check_constants(const imp_value *constants, imp_create_error *why)
+{
+    for (size_t k = 0; k < constants->count; ++k) {
+        const char *name = constants->string[k];
+        if (strlen(name) == 1 && strchr("xyz", *name) != NULL)
+            return imp_reject(why, OWN_CONSTANTS, -1,
+                              "'%s' cannot be defined: it is a coordinate; take another name",
+                              name);
+    }
+    return IMP_STATUS_OK;
+}
+
 static imp_status fill(const imp_value *values, motion_instance *s, imp_create_error *why)
 {
     imp_status status = axis_check(AXIS, values[AXIS].number, why);
+    if (status == IMP_STATUS_OK) status = check_constants(&values[OWN_CONSTANTS], why);
     if (status == IMP_STATUS_OK) status = read_time(values, OWN_TIME, &s->lo, &s->hi, why);
     if (status == IMP_STATUS_OK) status = compile(values, OFFSET, s, &s->offset, why);
     if (status == IMP_STATUS_OK && imp_is_given(&values[ANGLE]))

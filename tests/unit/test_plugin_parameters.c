@@ -113,6 +113,7 @@ static const struct refusal {
     {"formula constants=[1]", "constants", "an object of numbers"},
     {"! map-formula x=u", "x", "unknown name 'u'; known: x, y, z, t, pi, e"},
     {"! map-formula time=2,1", "time", "ends before it begins"},
+    {"! motion-formula angle=y*t constants={\"y\":1}", "constants", "it is a coordinate"},
     {"! motion-formula angle=x", "angle", "unknown name 'x'; known: t, pi, e"},
     {"! motion-formula offset=[\"0\",\"0\",\"z\"]", "offset/2",
      "unknown name 'z'; known: t, pi, e"},
