@@ -7,6 +7,7 @@
 #include "plugins/expression/type.h"
 
 #include <impinge/formula.h>
+#include <string.h>
 
 /* Rigid motion by formulas in t
  * =============================
