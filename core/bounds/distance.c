@@ -57,6 +57,20 @@ static void bend_of(const imp_model model[3], const imp_region *r, double bend[3
     for (int j = 0; j < 3; ++j) bend[j] = lanes_sum(s.curved[j] + s.blame[j]);
 }
 
+/* Computes the nonlinear extents of a node's points less a way in time. Models made of a node have
+ * infinite rates, by which u and v would share the remainder equally, however straight one of them
+ * is: u and v keep the node's extents, and t takes the way's remainder. */
+static void bend_beside_way(const node *a, const imp_model point[3], double bend[3])
+{
+    memcpy(bend, a->nonlinear_extent, sizeof a->nonlinear_extent);
+    bend[PARAMETER_T] = a->time_remainder;
+    for (int i = 0; i < 3; ++i) {
+        const double *k = point[i].q;
+        bend[PARAMETER_T] += point[i].e - a->e[i];
+        bend[PARAMETER_T] += 2 * fabs(k[IMP_TT]) + 0.5 * fabs(k[IMP_UT]) + 0.5 * fabs(k[IMP_VT]);
+    }
+}
+
 imp_code distance_fault(const surface *s, imp_status status, imp_error *error)
 {
     surface_fault(s, error, ": %s", surface_status_message(s, status).text);
@@ -87,6 +101,12 @@ static imp_region region_of(const distance_question *q)
         if ((q->held >> j & 1) != 0) lo[j] = hi[j] = r->c[j];
     if (distance_slides(q)) lo[2] = hi[2] = q->moment;
     return region_make(lo, hi);
+}
+
+/* Whether points_of begins with the node's own models. */
+static bool is_of_node(const distance_question *q, size_t common)
+{
+    return !q->is_ball && !distance_slides(q) && q->held == 0 && common == 0;
 }
 
 /* Models of the node's points before the maps that both surfaces end with, over region_of; less
@@ -140,8 +160,10 @@ static imp_code find_distance(const distance_question *q, imp_model *g, double b
     *known = false;
     if (status == IMP_STATUS_UNBOUNDED) return IMP_SUCCESS;
     if (status != IMP_STATUS_OK) return distance_fault(q->a->surface, status, error);
-    const bool is_other = q->is_ball || distance_slides(q) || q->is_carried || common > 0;
-    if (is_other) bend_of(point, &over, bend);
+    if (!is_of_node(q, common))
+        bend_of(point, &over, bend);
+    else if (q->is_carried)
+        bend_beside_way(q->a, point, bend);
     status = distance_of(q, common, point, g);
     *known = status == IMP_STATUS_OK;
     if (status == IMP_STATUS_OK || status == IMP_STATUS_UNBOUNDED) return IMP_SUCCESS;
@@ -303,6 +325,7 @@ static void cut_by(const distance_question *q, const imp_model *g, time_window *
     w_range s = {-1, 1};
     for (int k = 0; k < 2 && !view->is_apart; ++k)
         view->is_apart = !w_range_cut(&s, both.low[k] - slack, both.drift[k], gamma_clear);
+    view->remainder = g->e;
     view->is_promising = !view->is_apart && is_worth_halving(g, &both, a, gamma_clear, size,
                                                              is_within_itself(q), q->held != 0);
     if (!view->is_apart) window_cut(window, whole.mid, whole.half, &s);

@@ -18,6 +18,7 @@
 typedef struct distance_view {
     bool is_apart;     /* farther than gamma_clear during the whole window */
     bool is_promising; /* not apart, but its halves, with smaller remainders, may be */
+    double remainder;  /* of the distance, where it is promising; length */
     bool has_start;    /* the window's start was cut by distance_cut_start */
     double lower;      /* bound of the distance over the window as passed; length */
     double bend[3];    /* nonlinear extents in u, v, t in the other's frame, about; length */
@@ -111,6 +112,7 @@ typedef struct distance_sides {
     distance_slips *slips; /* the caller's, of the two surfaces */
     arena_store *store;    /* of temporary memory; NULL: the heap */
     bool seeks_start;      /* whether a ball's distance shall cut the window's start exactly */
+    bool seeks_contact;    /* rather than the minimum distance: decides only what to split */
     bool takes_orbits;     /* whether one point may stand for others, screws included */
     bool is_audited;
 } distance_sides;
@@ -138,8 +140,8 @@ bool distance_is_turned(const distance_sides *of, int side);
 /* Returns an outcome that claims nothing. */
 distance_outcome distance_outcome_none(const time_window *window);
 
-/* Tries node 0, then node 1, until one decides, and adds what they show to *seen. Precondition:
- * both nodes are bounded. IMP_ERROR_PLUGIN: a callback breaks the ABI. */
+/* Tries both nodes until one decides, and adds what they show to *seen. Precondition: both nodes
+ * are bounded. IMP_ERROR_PLUGIN: a callback breaks the ABI. */
 imp_code distance_cut_sides(const distance_sides *of, double gamma_clear, distance_outcome *seen,
                             imp_error *error);
 

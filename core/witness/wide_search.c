@@ -12,6 +12,9 @@ enum { ROWS = 4, PLACES = ROWS * ROWS };
 
 /* Where both surfaces nearly touch, a round of steps ends early, and another one goes on. */
 enum { ROUNDS = 16 };
+
+/* Most searches, each from another pair of points of the grid. */
+enum { STARTS = 6 };
 #define LESS 0.98
 
 /* Relative to half of the domain; points across a seam are the same but for rounding. */
@@ -80,26 +83,61 @@ static imp_code cross_seams(const node *const nodes[2], double t, double gamma, 
     return IMP_SUCCESS;
 }
 
-imp_code witness_seek_widely(const node *const nodes[2], double t, double gamma, witness *found,
-                             imp_error *error)
+/* A pair of points of both grids. */
+typedef struct start {
+    double gap;   /* length */
+    int place[2]; /* in each grid */
+} start;
+
+/* Inserts a start among the nearest, which are sorted and of which the last is dropped if there are
+ * STARTS. */
+static void insert(start *nearest, int *count, const start *s)
 {
-    grid of[2];
-    double least = INFINITY, y[NEWTON_UNKNOWNS] = {0};
-    for (int side = 0; side < 2; ++side) {
-        const imp_code code = fill(nodes[side], t, &of[side], error);
-        if (code != IMP_SUCCESS) return code;
-    }
+    int k = *count < STARTS ? (*count)++ : STARTS - 1;
+    for (; k > 0 && s->gap < nearest[k - 1].gap; --k) nearest[k] = nearest[k - 1];
+    nearest[k] = *s;
+}
+
+/* Finds the nearest pairs of points, and returns their number. */
+static int find_starts(const grid of[2], start *nearest)
+{
+    int count = 0;
     for (int j = 0; j < PLACES; ++j)
         for (int k = 0; k < PLACES; ++k) {
-            const double gap = vec3_norm(vec3_sub(of[1].x[k], of[0].x[j]));
-            if (!(gap < least)) continue;
-            least = gap;
-            memcpy(y, of[0].y[j], sizeof of[0].y[j]);
-            memcpy(y + 2, of[1].y[k], sizeof of[1].y[k]);
+            const start s = {vec3_norm(vec3_sub(of[1].x[k], of[0].x[j])), {j, k}};
+            if (count < STARTS || s.gap < nearest[STARTS - 1].gap) insert(nearest, &count, &s);
         }
+    return count;
+}
+
+static imp_code seek_from(const node *const nodes[2], double t, double gamma, const grid of[2],
+                          const start *s, witness *found, imp_error *error)
+{
+    double y[NEWTON_UNKNOWNS];
+    for (int side = 0; side < 2; ++side)
+        memcpy(y + 2 * side, of[side].y[s->place[side]], sizeof of[side].y[0]);
     imp_code code = witness_at(nodes, t, y, found, error);
     if (code == IMP_SUCCESS) code = descend(nodes, t, gamma, found, error);
     if (code == IMP_SUCCESS) code = cross_seams(nodes, t, gamma, found, error);
     /* The way between points that are just near enough may be far from the normals. */
     return code == IMP_SUCCESS ? witness_polish(nodes, t, found, error) : code;
+}
+
+imp_code witness_seek_widely(const node *const nodes[2], double t, double gamma, witness *found,
+                             imp_error *error)
+{
+    grid of[2];
+    start nearest[STARTS];
+    for (int side = 0; side < 2; ++side) {
+        const imp_code code = fill(nodes[side], t, &of[side], error);
+        if (code != IMP_SUCCESS) return code;
+    }
+    const int count = find_starts(of, nearest);
+    imp_code code = seek_from(nodes, t, gamma, of, &nearest[0], found, error);
+    for (int k = 1; k < count && code == IMP_SUCCESS && found->gap_upper > gamma; ++k) {
+        witness other;
+        code = seek_from(nodes, t, gamma, of, &nearest[k], &other, error);
+        if (code == IMP_SUCCESS && other.gap < found->gap) *found = other;
+    }
+    return code;
 }

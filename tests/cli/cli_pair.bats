@@ -46,6 +46,29 @@ load ../support/cli_helper
     json '.verdict == "clear"'
 }
 
+# few_pairs MOST VERB A B: neither order of both surfaces takes more than MOST pairs.
+few_pairs() {
+    local first
+    run -0 "$IMPINGE" "$2" "$3" "$4" --gamma 1e-4 --max-pairs 20K --json
+    json --argjson most "$1" '.stats.pairs <= $most'
+    first=$(jq '.lower // .t' <<<"$output")
+    run -0 "$IMPINGE" "$2" "$4" "$3" --gamma 1e-4 --max-pairs 20K --json
+    json --argjson most "$1" --argjson first "$first" '.stats.pairs <= $most and
+        ((.lower // .t) - $first | fabs < 1e-4)'
+}
+
+@test "either order of a and b takes few pairs" {
+    local ball='sphere radius=1.08 ! rotate axis=1,2,3 center=3,0,-2 rate=1'
+    few_pairs 10 pair 'sphere radius=0.52 ! rotate center=0,1,1 rate=2' \
+        'torus major_radius=1 minor_radius=0.25 ! translate velocity=0,.5,0'
+    few_pairs 100 pair 'sphere radius=1.04 ! rotate axis=0,0,1 rate=-1' \
+        'torus major_radius=1 minor_radius=0.25 ! rotate axis=0,0,1 center=-2,0,1 rate=2'
+    few_pairs 1500 pair "$ball" \
+        'cylinder radius=0.61 height=1.35 center=-0.223913,0,0 ends=true ! rotate axis=0,1,0 rate=3'
+    few_pairs 250 clearance 'sphere radius=1.27 ! rotate axis=0,0,1 rate=-1' \
+        'ellipsoid radii=0.61,0.49,0.81 ! rotate axis=0,1,0 rate=0.5'
+}
+
 @test "surfaces that are never there together are clear for that reason" {
     build_twin 5 6
     run -0 "$IMPINGE" pair twin "$left" --plugin-path "$PWD" --time 0,1 --json
