@@ -205,7 +205,7 @@ static inline void postpone(impact *im, pair *p)
 /* Seeks a contact at the start of the popped pair's window, at intervals. *met: it is known now,
  * and the pair is on the heap again. Not where gamma_clear is nearly gamma, as for a required
  * distance: then the bounds themselves tell soon, and contradict a type that lies. Precondition:
- * the heap has capacity. */
+ * the heap has capacity, and the pair's nets were not followed. */
 static imp_code seek_at_start(impact *im, pair *p, bool *met, imp_error *error)
 {
     *met = false;
@@ -305,10 +305,12 @@ imp_code impact_advance(impact *im, impact_state *state, imp_error *error)
     if (!recut_after_refining(im, &p)) return IMP_SUCCESS;
     postpone(im, &p);
     if (!complete_test(im, &p)) return IMP_SUCCESS;
+    const uint64_t followed = im->upper.followed;
     code = seek_upper_time(im, &p, error);
     if (code == IMP_SUCCESS && part_by_paraboloid(im, &p)) return IMP_SUCCESS;
     bool met = false;
-    if (code == IMP_SUCCESS) code = seek_at_start(im, &p, &met, error);
+    if (code == IMP_SUCCESS && im->upper.followed == followed)
+        code = seek_at_start(im, &p, &met, error);
     if (met) return IMP_SUCCESS;
     pair expanded = p; /* p itself is pushed again if the search ends here */
     if (code == IMP_SUCCESS) code = expand_pair(im, &expanded, state, error);

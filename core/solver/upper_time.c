@@ -89,7 +89,6 @@ imp_code upper_time_try(upper_time *up, const pair *p, double start, double gamm
 bool upper_time_is_due(upper_time *up, const pair *p)
 {
     if (!p->a->bounded || !p->b->bounded || pair_has_cluster(p)) return false;
-    if (strategy_has_both_hulls(p->a, p->b)) return false;
     up->tried += 1;
     if (up->next_try == 0) up->next_try = TUNING_START_FIRST;
     if (up->tried < up->next_try || (up->is_known && up->t <= p->window.lo)) return false;

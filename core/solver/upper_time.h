@@ -37,9 +37,10 @@ imp_code upper_time_follow(upper_time *up, const pair *p, double gamma, bool *so
 imp_code upper_time_try(upper_time *up, const pair *p, double start, double gamma, bool *met,
                         imp_error *error);
 
-/* Counts a popped pair, unless both nodes have nets. True, at intervals: upper_time_try is due at
- * its window's start. Nodes that meet there, as where surfaces cross from the beginning, would else
- * be divided until their remainders are below gamma, in an order that ties decide. */
+/* Counts a popped pair that upper_time_follow did not count, for lack of nets. True, at intervals:
+ * upper_time_try is due at its window's start. Nodes that meet there, as where surfaces cross from
+ * the beginning, would else be divided until their remainders are below gamma, in an order that
+ * ties decide. */
 bool upper_time_is_due(upper_time *up, const pair *p);
 
 /* Adapts to a smaller gamma: a contact whose gap is still small enough stays known; otherwise the
