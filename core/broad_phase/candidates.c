@@ -185,6 +185,7 @@ imp_code candidates_find(candidate_list *list, imp_scene *scene, const imp_optio
                       .may_rest = search->may_rest,
                       .slip_useful = search->slip_useful,
                       .may_halve = search->may_halve,
+                      .spans = SPANS_A_QUERY,
                       .common_motion = models ? collection_common_motion(scene) : 0,
                       .options = options,
                       .limit = limit,

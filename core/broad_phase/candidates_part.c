@@ -136,6 +136,7 @@ imp_code candidates_frame(candidate_list *list, const candidate_list *whole, siz
                       .may_rest = search->may_rest,
                       .slip_useful = search->slip_useful,
                       .may_halve = search->may_halve,
+                      .spans = SPANS_A_QUERY,
                       .options = options,
                       .limit = limit,
                       .stats = stats,

@@ -52,7 +52,7 @@ imp_code frames_set_aside(collection *all, frame_list *frames, size_t k, double 
     shared_aside shared;
     int asked = 0;
     const imp_status status =
-        surface_shared_aside(s, bare, &over, 0.25 * all->slip_most, &shared, &asked);
+        surface_shared_aside(s, bare, &over, 0.25 * all->slip_most, &all->spans, &shared, &asked);
     if (status != IMP_STATUS_OK) return distance_fault(s[asked], status, error);
     for (int side = 0; side < 2; ++side) {
         if (shared.which[side] == 0) continue;

@@ -111,15 +111,15 @@ imp_code frames_find(collection *all, frame_list *frames, const candidate *c,
     return IMP_SUCCESS;
 }
 
-/* Like surface_pair_slip, for a pair of which one moves along the other by its screw motions. No
- * verifier knows these. */
+/* Like surface_pair_slip, for a pair of which one moves along the other by its screw motions, and
+ * whose distances slip by `before` already. No verifier knows these. */
 static imp_code find_screw_slip(collection *all, candidate *const side[2],
                                 const screw_rest_times *at, const imp_model bare[2][3],
-                                double *slip, imp_error *error)
+                                double before, double *slip, imp_error *error)
 {
     const surface *const s[2] = {tree_surface(side[0]->tree), tree_surface(side[1]->tree)};
     screw_rest rest;
-    double near = all->gamma_clear;
+    double near = sum_upper(all->gamma_clear, before);
     int asked = 0;
     const imp_status status = surface_screw_rest(s, bare, at, &rest, &asked);
     if (status != IMP_STATUS_OK) return distance_fault(s[asked], status, error);
@@ -131,9 +131,10 @@ static imp_code find_screw_slip(collection *all, candidate *const side[2],
     return code;
 }
 
-/* Bounds in *slip how much the distance of the pair of these frames changes with time. */
+/* Bounds in *slip how much the distance of the pair of these frames, which slips by `before`,
+ * changes with time. */
 static imp_code find_slip(collection *all, candidate *const side[2], const time_window *times,
-                          double *slip, imp_error *error)
+                          double before, double *slip, imp_error *error)
 {
     imp_model bare[2][3];
     const surface *s[2];
@@ -152,7 +153,7 @@ static imp_code find_slip(collection *all, candidate *const side[2], const time_
     const screw_rest_times at = {&all_times, times->lo, 0.5 * all->slip_most};
     if (status == IMP_STATUS_OK && all->may_halve && !(*slip <= all->slip_most) &&
         (surface_is_screw_piece(s[0]) || surface_is_screw_piece(s[1])))
-        return find_screw_slip(all, side, &at, bare, slip, error);
+        return find_screw_slip(all, side, &at, bare, before, slip, error);
     if (status == IMP_STATUS_OK) return IMP_SUCCESS;
     const surface_message what = surface_status_message(s[asked], status);
     if (status == SURFACE_BAD_SYMMETRY)
@@ -180,7 +181,7 @@ static imp_code rest_pair(collection *all, frame_list *frames, size_t k, double 
     /* impinge-verify would have to divide what turns beside another line until it hardly turns. */
     if (!all->may_halve && frames_have_two_lines(frames, k)) return IMP_SUCCESS;
     candidate *const side[2] = {&frames->at[of_pair[0]].made, &frames->at[of_pair[1]].made};
-    code = find_slip(all, side, &times, &slip, error);
+    code = find_slip(all, side, &times, *found, &slip, error);
     slip = sum_upper(slip, *found);
     if (code != IMP_SUCCESS || !(slip <= all->slip_most)) return code;
     *found = slip;

@@ -50,6 +50,10 @@ enum { BOXES_AT_HAND = 4 }; /* boxes stored in the collection itself */
  * farther than the nearest two boxes are left out where only the nearest pair is sought. */
 enum { ROOTS_AT_ONCE = 512 };
 
+/* Parts of time that a query looks at to find maps that do the same, of all its pairs: 5 to 40 us
+ * each. Two turns at rate 2 take some 12,000 at gamma 1e-7. */
+enum { SPANS_A_QUERY = 16384 };
+
 typedef struct collection {
     imp_scene *scene;
     const imp_options *options;
@@ -62,6 +66,7 @@ typedef struct collection {
     bool may_rest;        /* of the candidate_search; else no tree is of one moment */
     double slip_useful;   /* of the candidate_search */
     bool may_halve;       /* half planes are used; not without slip_most */
+    size_t spans;         /* of time that may still be looked at for maps to set aside */
     swept_box *boxes, at_hand[BOXES_AT_HAND];
     candidate_list *list;
     uint64_t bytes_checked; /* stats->bytes when limits were last checked */

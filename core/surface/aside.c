@@ -76,6 +76,7 @@ typedef struct search {
         size_t map;
     } moving[2 * MAPS_MOST];
     size_t count; /* of those that move */
+    size_t *spans;
     int *asked;
 } search;
 
@@ -155,16 +156,26 @@ static double difference_upper(const imp_pose pose[2], double far)
     return padded_upper(surface_size_upper(from[0]) + (sqrt(turn) + ROOT_UNDERFLOW) * far, 16);
 }
 
-/* Parts of time in which poses are compared, at most: some microseconds each. Two turns at rate w
- * need about w / (6 enough)^(1/3) for each unit of time and of distance from the origin. */
-enum { SPANS_MOST = 16384, DEPTH_MOST = 20 };
+enum { DEPTH_MOST = 20 };
+
+/* Whether the difference over a part of the times, as bounded, needs more than `spans` parts of all
+ * of them. Models of poses have errors of third order in time, and halves an eighth of these; so n
+ * parts of one that is 1 / k of all, with k n <= spans, reach apart / n^3. Two turns at rate w need
+ * about w (far / (6 enough))^(1/3) for each unit of time. */
+static bool needs_more(double part_of_times, double apart, double enough, size_t spans)
+{
+    const double n = part_of_times * (double)spans;
+    return apart > enough * n * n * n && apart < INFINITY;
+}
 
 /* Halves the times until the difference is small enough over each part. *most: the greatest;
  * INFINITY: it is not known to be. */
 static imp_status compare(const search *q, const part p[2], double far, double enough, double *most)
 {
+    const double all = q->times->hi[2] - q->times->lo[2];
+    const size_t spans = *q->spans;
     double from[DEPTH_MOST + 1][2];
-    int left = 0, spans = 0;
+    int left = 0;
     from[left][0] = q->times->lo[2], from[left++][1] = q->times->hi[2];
     *most = 0;
     while (left > 0) {
@@ -180,10 +191,12 @@ static imp_status compare(const search *q, const part p[2], double far, double e
         if (apart <= enough) {
             *most = apart > *most ? apart : *most;
             --left;
-        } else if (left > DEPTH_MOST || ++spans > SPANS_MOST) {
+        } else if (left > DEPTH_MOST || *q->spans == 0 ||
+                   needs_more((b - a) / all, apart, enough, spans)) {
             *most = INFINITY;
             left = 0;
         } else {
+            *q->spans -= 1;
             from[left - 1][0] = span.c[2], from[left][0] = a, from[left][1] = span.c[2];
             ++left;
         }
@@ -259,10 +272,10 @@ static imp_status try_choices(const search *q, const imp_model bare[2][3], share
 }
 
 imp_status surface_shared_aside(const surface *const s[2], const imp_model bare[2][3],
-                                const imp_region *times, double enough, shared_aside *found,
-                                int *asked)
+                                const imp_region *times, double enough, size_t *spans,
+                                shared_aside *found, int *asked)
 {
-    search q = {.s = s, .times = times, .enough = enough, .asked = asked};
+    search q = {.s = s, .times = times, .enough = enough, .spans = spans, .asked = asked};
     *found = (shared_aside){{0, 0}, 0};
     imp_status status = IMP_STATUS_OK;
     for (int side = 0; side < 2 && status == IMP_STATUS_OK; ++side) {

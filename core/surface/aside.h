@@ -20,11 +20,12 @@ typedef struct shared_aside {
 } shared_aside;
 
 /* Finds such maps with a slip of at most `enough`. `bare` holds models of each surface before its
- * maps, of which only the ranges are used; neither moves by itself. *asked becomes the side whose
+ * maps, of which only the ranges are used; neither moves by itself. *spans: how many parts of time
+ * may still be looked at, some microseconds each; it falls. *asked becomes the side whose
  * callback was called last, for error messages. */
 imp_status surface_shared_aside(const surface *const s[2], const imp_model bare[2][3],
-                                const imp_region *times, double enough, shared_aside *found,
-                                int *asked);
+                                const imp_region *times, double enough, size_t *spans,
+                                shared_aside *found, int *asked);
 
 /* Makes the surface of the first `maps` maps of s, but for those that are set aside, at all times
  * of s. The errors of its points have the slip. NULL: no memory. */

@@ -113,7 +113,8 @@ bool axis_is_point(const imp_model *angle)
  *
  * Lemma. R(A) - 1 = sin A turned - (1 - cos A) across, where |sin A| <= e, and 1 - cos A <= e since
  * it is at most e^2 / 2 and at most 2. Entries of across and turned are within their errors. An
- * entry of 0 or 1 is exact: a turned point has only the roundings of w, of products and of sums. */
+ * entry of 0 or 1 is exact: a turned point has only the roundings of w, of products and of sums. An
+ * entry of 0 gets as much: a checker that rounds the formula's entries could not prove less. */
 static axis_point_matrix matrix_near_rest(const axis_frame *frame, double e)
 {
     enum { REST_ROUNDING = 4 }; /* w, product, sums: 1 + 3 */
@@ -124,7 +125,7 @@ static axis_point_matrix matrix_near_rest(const axis_frame *frame, double e)
             const double moving =
                 fabs(across.value) + across.error + fabs(turned.value) + turned.error;
             matrix.entry[i][j] = i == j;
-            matrix.off[i][j] = e * moving + REST_ROUNDING * IMP_U * (i == j) + IMP_TINY;
+            matrix.off[i][j] = e * moving + REST_ROUNDING * IMP_U + IMP_TINY;
         }
     return matrix;
 }

@@ -15,7 +15,7 @@
 /* Maps that are exchanged, and surfaces some of whose maps are set aside, at random: points move no
  * farther than the bounds say. */
 
-enum { SCENES = 200, POINTS = 30, TEXT = 800, WORDS = 4 };
+enum { SPANS = 16384, SCENES = 200, POINTS = 30, TEXT = 800, WORDS = 4 };
 
 static imp_registry *registry;
 
@@ -212,8 +212,9 @@ START_TEST(surfaces_without_maps_set_aside_are_as_far_from_each_other)
         shared_aside shared;
         surface *made[2];
         int asked;
+        size_t spans = SPANS;
         for (int k = 0; k < 6; ++k) bare[k / 3][k % 3] = imp_between(-2.5, 2.5);
-        ck_assert_int_eq(surface_shared_aside(s, bare, &times, enough, &shared, &asked),
+        ck_assert_int_eq(surface_shared_aside(s, bare, &times, enough, &spans, &shared, &asked),
                          IMP_STATUS_OK);
         ck_assert_double_le(shared.slip, enough);
         found += (shared.which[0] | shared.which[1]) != 0;
@@ -268,13 +269,43 @@ START_TEST(maps_that_differ_by_more_than_is_allowed_are_not_set_aside)
         imp_model bare[2][3];
         shared_aside shared;
         int asked;
+        size_t spans = SPANS;
         for (int k = 0; k < 6; ++k) bare[k / 3][k % 3] = imp_between(-1, 1);
-        ck_assert_int_eq(surface_shared_aside(s, bare, &times, 1e-6, &shared, &asked),
+        ck_assert_int_eq(surface_shared_aside(s, bare, &times, 1e-6, &spans, &shared, &asked),
                          IMP_STATUS_OK);
         ck_assert_msg(shared.which[0] == 0 && shared.which[1] == 0, "%s | %s", moving[n][0],
                       moving[n][1]);
         imp_scene_free(scene);
     }
+}
+END_TEST
+
+/* Turns that cancel at rate 2 need many parts of time, and faster ones more than there may be: that
+ * is seen at once. */
+START_TEST(parts_of_time_are_looked_at_only_where_they_suffice)
+{
+    static const char *const turning[] = {"box ! rotate rate=2 ! rotate rate=-2",
+                                          "box ! rotate rate=100 ! rotate rate=-100"};
+    for (int few = 0; few < 2; ++few)
+        for (int n = 0; n < 2; ++n) {
+            imp_scene *scene = scene_of(turning[n], "box");
+            const surface *const s[2] = {scene_surface(scene, 0, 0), scene_surface(scene, 1, 0)};
+            const imp_region times = region_make((double[3]){0, 0, 0}, (double[3]){0, 0, 1});
+            const size_t all = few ? 64 : SPANS;
+            imp_model bare[2][3];
+            shared_aside shared;
+            int asked;
+            size_t spans = all;
+            for (int k = 0; k < 6; ++k) bare[k / 3][k % 3] = imp_between(-1, 1);
+            ck_assert_int_eq(surface_shared_aside(s, bare, &times, 1e-9, &spans, &shared, &asked),
+                             IMP_STATUS_OK);
+            ck_assert_int_eq(shared.which[0] != 0, !few && n == 0);
+            if (few || n == 1)
+                ck_assert_uint_ge(spans, all - 8);
+            else
+                ck_assert_uint_lt(spans, all - 64);
+            imp_scene_free(scene);
+        }
 }
 END_TEST
 
@@ -380,6 +411,7 @@ int main(void)
     const TTest *const tests[] = {maps_that_are_exchanged_move_points_no_farther_than_is_said,
                                   surfaces_without_maps_set_aside_are_as_far_from_each_other,
                                   maps_that_differ_by_more_than_is_allowed_are_not_set_aside,
+                                  parts_of_time_are_looked_at_only_where_they_suffice,
                                   answers_are_those_of_the_surfaces_under_all_maps,
                                   a_query_that_sets_maps_aside_and_runs_out_of_memory_can_go_on};
     return suite_main_with("aside", tests, sizeof tests / sizeof tests[0], open_registry,
