@@ -753,8 +753,10 @@ typedef void (*imp_proof_sink)(void *context, const void *bytes, size_t size);
 IMP_EXPORT char *imp_scene_sources(const imp_scene *scene, imp_error *error);
 
 /* Writes the certificate of a query that keeps a proof and has ended; of an undecided one up to
- * t_lower. `stated` (NULL: nothing) are lines of text, each with its end, that name what was asked:
- * "scene HASH", then those of imp_scene_sources; the verifier compares, and trusts none.
+ * t_lower. A clearance may go on afterwards: the certificate has its bracket so far. `stated`
+ * (NULL: nothing) are lines of text, each with its end, that name what was asked: "scene HASH",
+ * then those of imp_scene_sources; the verifier compares, and trusts none. IMP_ERROR_USAGE: it
+ * keeps no proof, has not ended, or was ended by a limit before anything was proved.
  * IMP_ERROR_PLUGIN: a type failed to tell its formula; then what was written is no certificate. */
 IMP_EXPORT imp_code imp_query_write_proof(const imp_query *query, const char *stated,
                                           imp_proof_sink write, void *context, imp_error *error);

@@ -149,16 +149,17 @@ static imp_code claim_of_clearance(const imp_query *query, proof_claim *claim, i
 
 /* --- Writing ---------------------------------------------------------------------------------- */
 
-/* Whether the query has ended with something that can be written. */
+/* Whether there is something that can be written: the answer of a contact, or a bracket, at any
+ * time. */
 static imp_code check_ended(const imp_query *query, imp_error *error)
 {
-    const bool complete = query->candidates.complete &&
-                          (query->clearance == NULL || query->reason != IMP_REASON_MEMORY);
-    if (query->proof != NULL && complete && query->reason != IMP_REASON_RUNNING) return IMP_SUCCESS;
+    const imp_reason unknown = query->clearance == NULL ? IMP_REASON_RUNNING : IMP_REASON_MEMORY;
+    if (query->proof != NULL && query->candidates.complete && query->reason != unknown)
+        return IMP_SUCCESS;
     if (query->proof != NULL && query->reason == IMP_REASON_MEMORY) return error_set_memory(error);
     return error_set(error, IMP_ERROR_USAGE, "proof: this query %s",
                      query->proof == NULL ? "keeps none"
-                     : query->reason == IMP_REASON_RUNNING
+                     : query->reason == IMP_REASON_RUNNING && query->clearance == NULL
                          ? "has not ended"
                          : "was ended by a limit before anything was proved");
 }

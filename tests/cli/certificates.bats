@@ -45,6 +45,13 @@ near='sphere center=2.01,0.1,0.2'
     run -3 "$IMPINGE" clearance "${apart[@]}" --max-pairs 1 --require 0.69 --proof open.proof
     run -0 verify open.proof
     [[ $output == *"no two points nearer than 0 from t = 0 to 1"* ]]
+    local verb
+    for verb in pair clearance; do
+        run -3 --separate-stderr "$IMPINGE" $verb "${apart[@]}" --max-seconds 1e-9 --json --proof none.proof
+        json '.reason == "max-seconds"'
+        [[ $stderr == *"$verb: proof: this query "* ]]
+        [ ! -e none.proof ]
+    done
 }
 
 @test "certificates of clear, of a distance and of one that is required hold" {

@@ -200,11 +200,35 @@ START_TEST(files_that_a_scene_names_are_listed_whatever_fails)
 }
 END_TEST
 
+START_TEST(a_clearance_that_goes_on_proves_its_bracket_so_far)
+{
+    imp_scene *scene = scene_of(moving);
+    const imp_options options = imp_options_default(scene);
+    const imp_clearance_options asked = imp_clearance_options_default();
+    imp_query *query = imp_clearance_new(scene, &options, &asked, &error);
+    int proved = 0;
+    ck_assert_int_eq(imp_query_keep_proof(query, &error), IMP_SUCCESS);
+    while (imp_query_result(query).reason == IMP_REASON_RUNNING) {
+        static written w;
+        w.size = 0;
+        ck_assert_int_eq(imp_query_step(query, 3, &error), IMP_SUCCESS);
+        ck_assert_msg(imp_query_write_proof(query, NULL, put, &w, &error) == IMP_SUCCESS, "%s",
+                      error.text);
+        require_holds(&w, 0);
+        proved += 1;
+    }
+    ck_assert_int_gt(proved, 3);
+    imp_query_free(query);
+    imp_scene_free(scene);
+}
+END_TEST
+
 int main(void)
 {
     const TTest *const tests[] = {a_query_s_proof_is_whole_or_not_there,
                                   a_survey_s_proof_is_whole_or_not_there,
-                                  files_that_a_scene_names_are_listed_whatever_fails};
+                                  files_that_a_scene_names_are_listed_whatever_fails,
+                                  a_clearance_that_goes_on_proves_its_bracket_so_far};
     return suite_main_with("proof_memory", tests, sizeof tests / sizeof *tests, open_registry,
                            close_registry);
 }

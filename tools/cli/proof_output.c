@@ -102,7 +102,10 @@ static exit_status write_proof(const imp_query *query, const imp_survey *survey,
                               : imp_survey_write_proof(survey, stated, put, out.file, &error);
     free(stated);
     status = output_file_end(&out, code == IMP_SUCCESS);
-    return code == IMP_SUCCESS ? status : complain_of(&error, args->verb->name);
+    if (code == IMP_SUCCESS) return status;
+    if (code != IMP_ERROR_USAGE) return complain_of(&error, args->verb->name);
+    remark(args->verb->name, "%s; no certificate is written", message_of(&error));
+    return EXIT_ANSWERED;
 }
 
 exit_status proof_output_write(const imp_query *query, const imp_scene *scene,

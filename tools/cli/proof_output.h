@@ -23,7 +23,8 @@ exit_status proof_output_begin_survey(imp_survey *survey, const arguments *args)
 exit_status proof_output_write_survey(const imp_survey *survey, const imp_scene *scene,
                                       const arguments *args);
 
-/* Writes the proof of a query that has ended, if --proof asks for one. */
+/* Writes the proof of a query that has ended, if --proof asks for one. EXIT_ANSWERED also where
+ * nothing was proved: that is remarked, and no file is written. */
 exit_status proof_output_write(const imp_query *query, const imp_scene *scene,
                                const arguments *args);
 
