@@ -325,7 +325,6 @@ static void cut_by(const distance_question *q, const imp_model *g, time_window *
     w_range s = {-1, 1};
     for (int k = 0; k < 2 && !view->is_apart; ++k)
         view->is_apart = !w_range_cut(&s, both.low[k] - slack, both.drift[k], gamma_clear);
-    view->remainder = g->e;
     view->is_promising = !view->is_apart && is_worth_halving(g, &both, a, gamma_clear, size,
                                                              is_within_itself(q), q->held != 0);
     if (!view->is_apart) window_cut(window, whole.mid, whole.half, &s);

@@ -18,7 +18,6 @@
 typedef struct distance_view {
     bool is_apart;     /* farther than gamma_clear during the whole window */
     bool is_promising; /* not apart, but its halves, with smaller remainders, may be */
-    double remainder;  /* of the distance, where it is promising; length */
     bool has_start;    /* the window's start was cut by distance_cut_start */
     double lower;      /* bound of the distance over the window as passed; length */
     double bend[3];    /* nonlinear extents in u, v, t in the other's frame, about; length */
@@ -112,7 +111,6 @@ typedef struct distance_sides {
     distance_slips *slips; /* the caller's, of the two surfaces */
     arena_store *store;    /* of temporary memory; NULL: the heap */
     bool seeks_start;      /* whether a ball's distance shall cut the window's start exactly */
-    bool seeks_contact;    /* rather than the minimum distance: decides only what to split */
     bool takes_orbits;     /* whether one point may stand for others, screws included */
     bool is_audited;
 } distance_sides;

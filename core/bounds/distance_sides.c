@@ -253,21 +253,12 @@ static imp_code cut_side(const distance_sides *of, int side, const side_plan *pl
     return plan->is_asked ? distance_cut(&plan->q, window, view, error) : IMP_SUCCESS;
 }
 
-/* Whether to split the side of this view rather than that of the other: its lower bound is greater,
- * or the bounds are equal and its remainder is smaller. Where the minimum distance is sought, a
- * search that changes sides at equal bounds takes more pairs than one that does not. */
-static bool is_split_rather(const distance_sides *of, const distance_view *view,
-                            const distance_view *than)
-{
-    if (view->lower != than->lower) return view->lower > than->lower;
-    return of->seeks_contact && view->remainder < than->remainder;
-}
-
 /* Lemma. A node's points belong to its whole surface: the distance of one node's points from all of
  * the other surface, or from the plane of its node, is no greater than that of the two nodes. Each
  * side cuts what the other has left, first as a ball. Both are asked even where the first is worth
  * splitting alone, so that the choice does not depend on their order: a sphere's node may need 600
- * pairs against an ellipsoid whose nodes need 140 against the sphere. */
+ * pairs against an ellipsoid whose nodes need 140 against the sphere. Of equal bounds the first
+ * side keeps the choice: a search that changes sides then takes more pairs than one that stays. */
 imp_code distance_cut_sides(const distance_sides *of, double gamma_clear, distance_outcome *seen,
                             imp_error *error)
 {
@@ -277,7 +268,7 @@ imp_code distance_cut_sides(const distance_sides *of, double gamma_clear, distan
         if (code != IMP_SUCCESS) return code;
     }
     const int first = plan[1].is_still && !plan[0].is_still ? 1 : 0;
-    distance_view best = {.lower = 0};
+    double best = 0; /* the lower bound of the side to split */
     for (int k = 0; k < 4 && !seen->is_apart && !(k == 2 && seen->side >= 0); ++k) {
         const int side = k % 2 == 0 ? first : !first;
         distance_view view;
@@ -289,8 +280,8 @@ imp_code distance_cut_sides(const distance_sides *of, double gamma_clear, distan
         seen->has_start = seen->has_start || view.has_start;
         if (view.lower > seen->lower) seen->lower = view.lower;
         if (!view.is_promising) continue;
-        if (seen->side >= 0 && !is_split_rather(of, &view, &best)) continue;
-        best = view;
+        if (seen->side >= 0 && !(view.lower > best)) continue;
+        best = view.lower;
         seen->side = side;
         memcpy(seen->bend, view.bend, sizeof seen->bend);
     }
