@@ -75,7 +75,8 @@ static void skip_side(input *in)
         open = input_count(in, 2) < 2 ? open + 1 : open - 1;
 }
 
-static bool take_leaf(pair *p, const cell *c, unsigned op)
+/* Not inlined: a tree of DEPTH_MAX would take more than the 8 MB of a stack with its buffers. */
+__attribute__((noinline)) static bool take_leaf(pair *p, const cell *c, unsigned op)
 {
     walk *w = p->w;
     prover *q = &p->prover;
