@@ -11,8 +11,6 @@
 #include "core/solver/contradiction.h"
 #include "core/solver/expand_pair.h"
 #include "core/solver/pair_note.h"
-#include "core/solver/pair_step.h"
-#include "core/solver/split_pair.h"
 
 /* Reserve heap space for half of the remaining candidate pairs, but at most this many: most are
  * pushed. */
@@ -202,25 +200,6 @@ static inline void postpone(impact *im, pair *p)
     if (upper_time_divides(&im->upper, &p->window)) push_later(im, p);
 }
 
-/* Seeks a contact at the start of the popped pair's window, at intervals. *met: it is known now,
- * and the pair is on the heap again. Not where gamma_clear is nearly gamma, as for a required
- * distance: then the bounds themselves tell soon, and contradict a type that lies. Precondition:
- * the heap has capacity, and the pair's nets were not followed. */
-static imp_code seek_at_start(impact *im, pair *p, bool *met, imp_error *error)
-{
-    *met = false;
-    if (im->baseline != IMP_BASELINE_NONE || im->spread != NULL) return IMP_SUCCESS;
-    if (im->gamma_clear > 0.5 * im->gamma || !upper_time_is_due(&im->upper, p)) return IMP_SUCCESS;
-    im->stats->witness_searches += 1;
-    imp_code code = pair_measure(p, impact_candidates(im, p), error);
-    if (code == IMP_SUCCESS)
-        code = upper_time_try(&im->upper, p, p->window.lo, im->gamma, met, error);
-    if (code != IMP_SUCCESS || !*met) return code;
-    impact_note_gap(im, &im->upper.seen);
-    pair_heap_push(&im->heap, p);
-    return IMP_SUCCESS;
-}
-
 /* Counts the pair, seeks an upper time from it at intervals, and ends its window at the horizon. */
 static imp_code seek_upper_time(impact *im, pair *p, imp_error *error)
 {
@@ -305,13 +284,8 @@ imp_code impact_advance(impact *im, impact_state *state, imp_error *error)
     if (!recut_after_refining(im, &p)) return IMP_SUCCESS;
     postpone(im, &p);
     if (!complete_test(im, &p)) return IMP_SUCCESS;
-    const uint64_t followed = im->upper.followed;
     code = seek_upper_time(im, &p, error);
     if (code == IMP_SUCCESS && part_by_paraboloid(im, &p)) return IMP_SUCCESS;
-    bool met = false;
-    if (code == IMP_SUCCESS && im->upper.followed == followed)
-        code = seek_at_start(im, &p, &met, error);
-    if (met) return IMP_SUCCESS;
     pair expanded = p; /* p itself is pushed again if the search ends here */
     if (code == IMP_SUCCESS) code = expand_pair(im, &expanded, state, error);
     if (code != IMP_SUCCESS || *state != IMPACT_RUNNING) pair_heap_push(&im->heap, &p);

@@ -6,7 +6,6 @@
 
 #include "core/bounds/strategy.h"
 #include "core/bounds/tuning.h"
-#include "core/solver/subdivision.h"
 #include "core/witness/contact_estimate.h"
 #include "core/witness/wide_search.h"
 
@@ -86,20 +85,9 @@ imp_code upper_time_try(upper_time *up, const pair *p, double start, double gamm
     return IMP_SUCCESS;
 }
 
-bool upper_time_is_due(upper_time *up, const pair *p)
-{
-    if (!p->a->bounded || !p->b->bounded || pair_has_cluster(p)) return false;
-    up->tried += 1;
-    if (up->next_try == 0) up->next_try = TUNING_START_FIRST;
-    if (up->tried < up->next_try || (up->is_known && up->t <= p->window.lo)) return false;
-    up->next_try = up->tried + up->tried / TUNING_START_SHARE + 1;
-    return true;
-}
-
 void upper_time_refine(upper_time *up, double gamma)
 {
     if (!up->is_known || up->seen.gap_upper <= gamma) return;
     up->is_known = false;
     up->next = up->followed;
-    up->next_try = up->tried;
 }

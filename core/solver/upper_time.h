@@ -24,7 +24,6 @@ typedef struct upper_time {
     net_paraboloid paraboloid; /* between the surfaces at the contact */
     uint32_t count;            /* of such contacts so far, each earlier than the one before */
     uint64_t followed, next;   /* pairs expanded; the count at which the next search is made */
-    uint64_t tried, next_try;  /* those without nets; the count at which upper_time_is_due */
 } upper_time;
 
 /* Counts an expanded pair and, at intervals, seeks a contact earlier than t starting from it;
@@ -36,12 +35,6 @@ imp_code upper_time_follow(upper_time *up, const pair *p, double gamma, bool *so
  * kept. Precondition: no contact is known up to then. */
 imp_code upper_time_try(upper_time *up, const pair *p, double start, double gamma, bool *met,
                         imp_error *error);
-
-/* Counts a popped pair that upper_time_follow did not count, for lack of nets. True, at intervals:
- * upper_time_try is due at its window's start. Nodes that meet there, as where surfaces cross from
- * the beginning, would else be divided until their remainders are below gamma, in an order that
- * ties decide. */
-bool upper_time_is_due(upper_time *up, const pair *p);
 
 /* Adapts to a smaller gamma: a contact whose gap is still small enough stays known; otherwise the
  * next pair is used to seek one. */
