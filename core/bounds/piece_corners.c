@@ -82,11 +82,6 @@ vec3 piece_circle_lowest(vec3 center, vec3 axis, double radius, vec3 n)
 
 /* --- Pieces ----------------------------------------------------------------------------------- */
 
-const surface *piece_of(const surface *s, size_t k)
-{
-    return surface_piece_count(s) > 0 ? surface_piece(s, k) : s;
-}
-
 /* A piece that is off by more than this part of its size is round: divided into this many hoops, if
  * one point may stand for its orbit. More than that many pieces are all taken as they are. */
 #define IS_ROUND 0x1p-20
@@ -188,7 +183,7 @@ imp_code piece_corners_take(const surface *s, const time_window *times, size_t m
                             arena_store *store, piece_corners *corners, bool *known,
                             imp_error *error)
 {
-    const size_t all = surface_piece_count(s) > 0 ? surface_piece_count(s) : 1;
+    const size_t all = surface_part_count(s);
     const size_t pieces = all < most ? all : most;
     const bool seeks_hoops = all <= ROUND_PIECES;
     const size_t room = pieces * (seeks_hoops ? HOOPS_OF_ONE : 1);
@@ -199,7 +194,7 @@ imp_code piece_corners_take(const surface *s, const time_window *times, size_t m
     corners->piece = (size_t *)(void *)(corners->of + room);
     for (size_t k = 0; k < pieces; ++k) {
         const size_t at = k * all / pieces;
-        const surface *piece = piece_of(s, at);
+        const surface *piece = surface_part(s, at);
         imp_status status;
         if (!take_piece(piece, times, seeks_hoops, corners, at, &status))
             return status == IMP_STATUS_OK || status == IMP_STATUS_UNBOUNDED

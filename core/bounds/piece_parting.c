@@ -95,20 +95,15 @@ static imp_code try_piece(const piece_course *of, const piece_shadow *s, size_t 
     }
     const bool is_round = cells[first].is_hoop || cells[first].slack > 0;
     if (view->is_apart || !is_round) return IMP_SUCCESS;
-    return try_round(of, piece_of(of->a, of->own->piece[first]), gamma_clear, window, view, error);
+    return try_round(of, surface_part(of->a, of->own->piece[first]), gamma_clear, window, view,
+                     error);
 }
 
-/* The cell after the last one of the piece of that cell; the first one of it. */
+/* The cell after the last one of the piece of that cell. */
 static size_t end_of_piece(const piece_corners *c, size_t k)
 {
     const size_t piece = c->piece[k];
     while (k < c->count && c->piece[k] == piece) ++k;
-    return k;
-}
-
-static size_t begin_of_piece(const piece_corners *c, size_t k)
-{
-    while (k > 0 && c->piece[k - 1] == c->piece[k]) --k;
     return k;
 }
 
@@ -120,7 +115,7 @@ static imp_code try_all(const piece_course *of, const piece_shadow *s, double ga
     const size_t step = n % 2 == 1 ? half : half % 2 == 1 ? half + 2 : half + 1;
     for (size_t k = 0, at = 0; k < n; ++k, at = (at + step) % n) {
         piece_view one;
-        if (begin_of_piece(of->own, at) != at) continue;
+        if (at > 0 && of->own->piece[at - 1] == of->own->piece[at]) continue;
         const imp_code code =
             try_piece(of, s, at, end_of_piece(of->own, at), gamma_clear, window, &one, error);
         if (code != IMP_SUCCESS) return code;

@@ -52,9 +52,6 @@ void piece_corners_clear(piece_corners *corners);
  * circle is across n. */
 vec3 piece_circle_lowest(vec3 center, vec3 axis, double radius, vec3 n);
 
-/* Piece k of a surface, or the surface, if it has no pieces. */
-const surface *piece_of(const surface *s, size_t k);
-
 /* The two surfaces, b's points at all times as a sees them. */
 typedef struct piece_course {
     const surface *a, *b;

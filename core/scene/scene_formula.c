@@ -16,7 +16,7 @@ static const surface *piece_at(const imp_scene *scene, imp_place at)
 {
     const surface *s = scene_surface(scene, at.body, at.surface);
     if (s == NULL || at.piece >= imp_scene_piece_count(scene, at.body, at.surface)) return NULL;
-    return surface_piece_count(s) > 0 ? surface_piece(s, at.piece) : s;
+    return surface_part(s, at.piece);
 }
 
 size_t imp_piece_stage_count(const imp_scene *scene, imp_place at)

@@ -14,8 +14,7 @@
 size_t imp_scene_piece_count(const imp_scene *scene, size_t body, size_t index)
 {
     const surface *s = scene_surface(scene, body, index);
-    if (s == NULL) return 0;
-    return surface_piece_count(s) > 0 ? surface_piece_count(s) : 1;
+    return s != NULL ? surface_part_count(s) : 0;
 }
 
 /* Returns the surface of a place; NULL: there is none. */
@@ -23,7 +22,7 @@ static const surface *piece_at(const imp_scene *scene, imp_place at)
 {
     const surface *s = scene_surface(scene, at.body, at.surface);
     if (s == NULL || at.piece >= imp_scene_piece_count(scene, at.body, at.surface)) return NULL;
-    return surface_piece_count(s) > 0 ? surface_piece(s, at.piece) : s;
+    return surface_part(s, at.piece);
 }
 
 /* Sets the error for a callback's status. A place outside the domain is the caller's fault. */

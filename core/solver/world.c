@@ -13,7 +13,7 @@
 static const surface *piece_of(const imp_scene *scene, const imp_side *at)
 {
     const surface *s = scene_surface(scene, at->body, at->surface);
-    return surface_piece_count(s) > 0 ? surface_piece(s, at->piece) : s;
+    return surface_part(s, at->piece);
 }
 
 static imp_code fault(const surface *s, imp_status status, double t, imp_error *error)

@@ -37,6 +37,17 @@ imp_code surface_divide(surface *s);
 size_t surface_piece_count(const surface *s);
 const surface *surface_piece(const surface *s, size_t k); /* k < surface_piece_count; any thread */
 
+/* The pieces of a surface, or itself if it is one surface: their number, and number k. */
+static inline size_t surface_part_count(const surface *s)
+{
+    return surface_piece_count(s) > 0 ? surface_piece_count(s) : 1;
+}
+
+static inline const surface *surface_part(const surface *s, size_t k)
+{
+    return surface_piece_count(s) > 0 ? surface_piece(s, k) : s;
+}
+
 /* Whether the region has all u and v of the surface, which is none of many pieces. */
 bool surface_is_whole(const surface *s, const imp_region *region);
 

@@ -175,16 +175,6 @@ static void trial_end(trial *y)
     imp_scene_free(y->scene);
 }
 
-static size_t piece_count(const surface *s)
-{
-    return surface_piece_count(s) > 0 ? surface_piece_count(s) : 1;
-}
-
-static const surface *piece_at(const surface *s, size_t k)
-{
-    return surface_piece_count(s) > 0 ? surface_piece(s, k) : s;
-}
-
 static void place_at(const surface *s, const double at[2], double t, double x[3])
 {
     double lo[3], hi[3];
@@ -210,14 +200,14 @@ typedef struct near_spots {
 
 static spot *spots_of(const surface *s, double t, size_t *count)
 {
-    *count = SPOTS * piece_count(s);
+    *count = SPOTS * surface_part_count(s);
     spot *all = calloc(*count, sizeof *all);
     ck_assert_ptr_nonnull(all);
     for (size_t k = 0; k < *count; ++k) {
         all[k].piece = k / SPOTS;
         all[k].at[0] = (double)(k % GRID) / (GRID - 1);
         all[k].at[1] = (double)(k / GRID % GRID) / (GRID - 1);
-        place_at(piece_at(s, all[k].piece), all[k].at, t, all[k].x);
+        place_at(surface_part(s, all[k].piece), all[k].at, t, all[k].x);
     }
     return all;
 }
@@ -236,7 +226,7 @@ static double step_near(const trial *y, const near_spots *from, double t)
             *moved += d % 2 ? step : -step;
             *moved = *moved < 0 ? 0 : *moved > 1 ? 1 : *moved;
             for (int j = 0; j < 2; ++j)
-                place_at(piece_at(y->s[j], from->s[j]->piece), to[j], t, x[j]);
+                place_at(surface_part(y->s[j], from->s[j]->piece), to[j], t, x[j]);
             if (!(query_distance(x[0], x[1]) < best)) continue;
             best = query_distance(x[0], x[1]), found = true;
             memcpy(at, to, sizeof at);
@@ -430,11 +420,11 @@ static double above_shadow(const trial *y, const piece_course *of, const piece_s
                            vec3 n, double t, double w, uint64_t *random)
 {
     const surface_course *c = &of->course;
-    const size_t piece = random_bits(random) % piece_count(of->b);
+    const size_t piece = random_bits(random) % surface_part_count(of->b);
     const double at[2] = {random_fraction(random), random_fraction(random)};
     double world[3], frame[4][3], x[3], off = c->off + of->other->slack + 1e-11;
     size_t cell = SIZE_MAX;
-    place_at(piece_at(of->b, piece), at, t, world);
+    place_at(surface_part(of->b, piece), at, t, world);
     frame_at(of->a, t, frame);
     take_back((const double(*)[3])frame, world, x);
     double height = 0;
