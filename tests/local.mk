@@ -608,6 +608,7 @@ noinst_HEADERS += \
     tests/support/comma_locale.h \
     tests/support/compose.h \
     tests/support/edge_nodes.h \
+    tests/support/failing_query.h \
     tests/support/isolated_bowl.h \
     tests/support/kit_registry.h \
     tests/support/made_certificate.h \

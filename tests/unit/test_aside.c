@@ -9,8 +9,7 @@
 #include "core/surface/aside.h"
 #include "core/surface/commute.h"
 #include "core/surface/region.h"
-#include "tests/support/alloc_failure.h"
-#include "tests/support/query_helpers.h"
+#include "tests/support/failing_query.h"
 
 /* Maps that are exchanged, and surfaces some of whose maps are set aside, at random: points move no
  * farther than the bounds say. */
@@ -184,18 +183,32 @@ static twins draw_twins(uint64_t *random)
 
 static void draw_point(uint64_t *random, const surface *s, double t, size_t *piece, double p[3])
 {
-    const size_t count = surface_piece_count(s);
+    const size_t count = surface_part_count(s);
     double lo[3], hi[3];
-    *piece = count > 0 ? random_bits(random) % count : 0;
-    surface_domain(count > 0 ? surface_piece(s, *piece) : s, lo, hi);
+    *piece = count > 1 ? random_bits(random) % count : 0;
+    surface_domain(surface_part(s, *piece), lo, hi);
     for (int j = 0; j < 2; ++j) p[j] = lo[j] + random_fraction(random) * (hi[j] - lo[j]);
     p[2] = t;
 }
 
 static void point_of(const surface *s, size_t piece, const double p[3], double x[3])
 {
-    const surface *own = surface_piece_count(s) > 0 ? surface_piece(s, piece) : s;
-    ck_assert_int_eq(surface_eval(own, 1, p, x, NULL), IMP_STATUS_OK);
+    ck_assert_int_eq(surface_eval(surface_part(s, piece), 1, p, x, NULL), IMP_STATUS_OK);
+}
+
+/* Asks what the surfaces of both bodies share over times [0, 1], their points before maps being
+ * within `size` of 0 along each coordinate. *spans falls. */
+static shared_aside shared_of(const imp_scene *scene, double size, double enough, size_t *spans)
+{
+    const surface *const s[2] = {scene_surface(scene, 0, 0), scene_surface(scene, 1, 0)};
+    const imp_region times = region_make((double[3]){0, 0, 0}, (double[3]){0, 0, 1});
+    imp_model bare[2][3];
+    shared_aside shared;
+    int asked;
+    for (int k = 0; k < 6; ++k) bare[k / 3][k % 3] = imp_between(-size, size);
+    ck_assert_int_eq(surface_shared_aside(s, bare, &times, enough, spans, &shared, &asked),
+                     IMP_STATUS_OK);
+    return shared;
 }
 
 START_TEST(surfaces_without_maps_set_aside_are_as_far_from_each_other)
@@ -206,16 +219,10 @@ START_TEST(surfaces_without_maps_set_aside_are_as_far_from_each_other)
         const twins y = draw_twins(&random);
         imp_scene *scene = scene_of(y.a, y.b);
         const surface *const s[2] = {scene_surface(scene, 0, 0), scene_surface(scene, 1, 0)};
-        const imp_region times = region_make((double[3]){0, 0, 0}, (double[3]){0, 0, 1});
         const double enough = random_power(&random, -20, -3);
-        imp_model bare[2][3];
-        shared_aside shared;
-        surface *made[2];
-        int asked;
         size_t spans = SPANS;
-        for (int k = 0; k < 6; ++k) bare[k / 3][k % 3] = imp_between(-2.5, 2.5);
-        ck_assert_int_eq(surface_shared_aside(s, bare, &times, enough, &spans, &shared, &asked),
-                         IMP_STATUS_OK);
+        const shared_aside shared = shared_of(scene, 2.5, enough, &spans);
+        surface *made[2];
         ck_assert_double_le(shared.slip, enough);
         found += (shared.which[0] | shared.which[1]) != 0;
         slips += shared.slip > 1e-12;
@@ -264,15 +271,8 @@ START_TEST(maps_that_differ_by_more_than_is_allowed_are_not_set_aside)
          "box"}};
     for (size_t n = 0; n < sizeof moving / sizeof *moving; ++n) {
         imp_scene *scene = scene_of(moving[n][0], moving[n][1]);
-        const surface *const s[2] = {scene_surface(scene, 0, 0), scene_surface(scene, 1, 0)};
-        const imp_region times = region_make((double[3]){0, 0, 0}, (double[3]){0, 0, 1});
-        imp_model bare[2][3];
-        shared_aside shared;
-        int asked;
         size_t spans = SPANS;
-        for (int k = 0; k < 6; ++k) bare[k / 3][k % 3] = imp_between(-1, 1);
-        ck_assert_int_eq(surface_shared_aside(s, bare, &times, 1e-6, &spans, &shared, &asked),
-                         IMP_STATUS_OK);
+        const shared_aside shared = shared_of(scene, 1, 1e-6, &spans);
         ck_assert_msg(shared.which[0] == 0 && shared.which[1] == 0, "%s | %s", moving[n][0],
                       moving[n][1]);
         imp_scene_free(scene);
@@ -289,16 +289,9 @@ START_TEST(parts_of_time_are_looked_at_only_where_they_suffice)
     for (int few = 0; few < 2; ++few)
         for (int n = 0; n < 2; ++n) {
             imp_scene *scene = scene_of(turning[n], "box");
-            const surface *const s[2] = {scene_surface(scene, 0, 0), scene_surface(scene, 1, 0)};
-            const imp_region times = region_make((double[3]){0, 0, 0}, (double[3]){0, 0, 1});
             const size_t all = few ? 64 : SPANS;
-            imp_model bare[2][3];
-            shared_aside shared;
-            int asked;
             size_t spans = all;
-            for (int k = 0; k < 6; ++k) bare[k / 3][k % 3] = imp_between(-1, 1);
-            ck_assert_int_eq(surface_shared_aside(s, bare, &times, 1e-9, &spans, &shared, &asked),
-                             IMP_STATUS_OK);
+            const shared_aside shared = shared_of(scene, 1, 1e-9, &spans);
             ck_assert_int_eq(shared.which[0] != 0, !few && n == 0);
             if (few || n == 1)
                 ck_assert_uint_ge(spans, all - 8);
@@ -368,41 +361,14 @@ END_TEST
 
 /* --- Memory ----------------------------------------------------------------------------------- */
 
-/* The n-th allocation of a query that sets maps aside fails; it goes on when there is memory. */
-static bool query_failing_at(size_t n)
-{
-    imp_error error = {IMP_SUCCESS, ""};
-    imp_scene *scene = scene_of("box ! rotate rate=2 ! translate velocity=0,0,0.5",
-                                "box size=1,1,3 center=1.01,0,0 ! rotate rate=2");
-    const imp_options options = imp_options_default(scene);
-    imp_code code = IMP_SUCCESS;
-    alloc_failure_begin(n);
-    imp_query *query = imp_query_new(scene, &options, &error);
-    if (query != NULL) code = imp_query_step(query, 0, &error);
-    const bool failed = alloc_failure_end() && n > 0;
-    ck_assert_int_eq(code, IMP_SUCCESS);
-    ck_assert(query != NULL || error.code == IMP_ERROR_MEMORY);
-    if (query != NULL) {
-        ck_assert((imp_query_result(query).reason == IMP_REASON_MEMORY) == failed);
-        ck_assert_int_eq(imp_query_step(query, 0, NULL), IMP_SUCCESS);
-        ck_assert_int_eq(imp_query_result(query).verdict, IMP_VERDICT_CLEAR);
-        ck_assert_uint_le(imp_query_result(query).stats.pairs, 10);
-    }
-    imp_query_free(query);
-    imp_scene_free(scene);
-    return failed;
-}
-
 START_TEST(a_query_that_sets_maps_aside_and_runs_out_of_memory_can_go_on)
 {
-    ck_assert(!query_failing_at(0)); /* what the registry keeps for later is there then */
-    const size_t before = alloc_failure_live();
-    size_t n = 0;
-    for (bool failed = true; failed && n < 10000;) {
-        failed = query_failing_at(++n);
-        ck_assert_uint_eq(alloc_failure_live(), before);
-    }
-    ck_assert_uint_gt(n, 4);
+    const failing_query q = {.registry = registry,
+                             .a = "box ! rotate rate=2 ! translate velocity=0,0,0.5",
+                             .b = "box size=1,1,3 center=1.01,0,0 ! rotate rate=2",
+                             .verdict = IMP_VERDICT_CLEAR,
+                             .pairs_most = 10};
+    failing_query_try_all(&q);
 }
 END_TEST
 

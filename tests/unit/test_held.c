@@ -11,8 +11,7 @@
 #include "core/scene/scene.h"
 #include "core/surface/held.h"
 #include "core/surface/region.h"
-#include "tests/support/alloc_failure.h"
-#include "tests/support/query_helpers.h"
+#include "tests/support/failing_query.h"
 
 /* Surfaces that turn within themselves while they move at random are as far from others, and touch
  * them when, as if they did not turn; and where they touch is a point of theirs, at that time. */
@@ -370,11 +369,6 @@ END_TEST
 
 /* --- Points ----------------------------------------------------------------------------------- */
 
-static const surface *piece_at(const surface *s, size_t k)
-{
-    return surface_piece_count(s) > 0 ? surface_piece(s, k) : s;
-}
-
 /* Points of the surface held, at any time, are points of the surface. */
 START_TEST(each_point_of_a_surface_held_is_one_of_the_surface)
 {
@@ -396,18 +390,19 @@ START_TEST(each_point_of_a_surface_held_is_one_of_the_surface)
         surface *still = surface_new_held(s, surface_map_count(s), held);
         ck_assert_ptr_nonnull(still);
         for (int k = 0; k < POINTS && held.count > 0; ++k) {
-            const size_t count = surface_piece_count(s) > 0 ? surface_piece_count(s) : 1;
-            const size_t piece = random_bits(&random) % count;
+            const size_t piece = random_bits(&random) % surface_part_count(s);
             const double t = random_fraction(&random);
             double lo[3], hi[3], p[3], x[3], found[3];
-            surface_domain(piece_at(s, piece), lo, hi);
+            surface_domain(surface_part(s, piece), lo, hi);
             for (int j = 0; j < 2; ++j) p[j] = lo[j] + random_fraction(&random) * (hi[j] - lo[j]);
             p[2] = t;
-            ck_assert_int_eq(surface_eval(piece_at(still, piece), 1, p, x, NULL), IMP_STATUS_OK);
-            ck_assert_int_eq(surface_held_place(piece_at(s, piece), held, surface_map_count(s), t,
-                                                x, &p[0], &p[1]),
+            ck_assert_int_eq(surface_eval(surface_part(still, piece), 1, p, x, NULL),
                              IMP_STATUS_OK);
-            ck_assert_int_eq(surface_eval(piece_at(s, piece), 1, p, found, NULL), IMP_STATUS_OK);
+            ck_assert_int_eq(surface_held_place(surface_part(s, piece), held, surface_map_count(s),
+                                                t, x, &p[0], &p[1]),
+                             IMP_STATUS_OK);
+            ck_assert_int_eq(surface_eval(surface_part(s, piece), 1, p, found, NULL),
+                             IMP_STATUS_OK);
             ck_assert_msg(query_distance(x, found) <= 1e-13, "%s at %.17g: %g", y.a[0], t,
                           query_distance(x, found));
         }
@@ -485,47 +480,15 @@ END_TEST
 
 /* --- Memory ----------------------------------------------------------------------------------- */
 
-static const char *const wheel = "cylinder ends=true ! rotate axis=0,0,1 rate=5 ! translate "
-                                 "velocity=-2,0,0",
-                         *const post = "sphere radius=0.5 center=-2,0,0";
-
-/* The n-th allocation of a query that holds a map fails; it goes on when there is memory. */
-static bool query_failing_at(size_t n)
-{
-    imp_error error = {IMP_SUCCESS, ""};
-    imp_scene *scene = imp_scene_from_pair(registry, wheel, post, &error);
-    ck_assert_msg(scene != NULL, "%s", error.text);
-    const imp_options options = imp_options_default(scene);
-    imp_code code = IMP_SUCCESS;
-    alloc_failure_begin(n);
-    imp_query *query = imp_query_new(scene, &options, &error);
-    if (query != NULL) code = imp_query_step(query, 0, &error);
-    const bool failed = alloc_failure_end() && n > 0;
-    ck_assert_int_eq(code, IMP_SUCCESS);
-    ck_assert(query != NULL || error.code == IMP_ERROR_MEMORY);
-    if (query != NULL) {
-        const imp_result r = imp_query_result(query);
-        ck_assert_msg((r.reason == IMP_REASON_MEMORY) == failed, "failing allocation %zu: %d, %d",
-                      n, (int)r.verdict, (int)r.reason);
-        ck_assert_int_eq(imp_query_step(query, 0, NULL), IMP_SUCCESS);
-        ck_assert_int_eq(imp_query_result(query).verdict, IMP_VERDICT_CONTACT);
-    }
-    imp_query_free(query);
-    imp_scene_free(scene);
-    return failed;
-}
-
 START_TEST(a_query_that_holds_maps_and_runs_out_of_memory_can_go_on)
 {
-    ck_assert(!query_failing_at(0)); /* what the registry keeps for later is there then */
-    const size_t before = alloc_failure_live();
-    size_t n = 0;
-    for (bool failed = true; failed && n < 10000;) {
-        failed = query_failing_at(++n);
-        ck_assert_msg(alloc_failure_live() == before, "failing allocation %zu leaves %zd blocks", n,
-                      (ssize_t)(alloc_failure_live() - before));
-    }
-    ck_assert_uint_gt(n, 4);
+    const failing_query q = {.registry = registry,
+                             .a = "cylinder ends=true ! rotate axis=0,0,1 rate=5 ! translate "
+                                  "velocity=-2,0,0",
+                             .b = "sphere radius=0.5 center=-2,0,0",
+                             .verdict = IMP_VERDICT_CONTACT,
+                             .pairs_most = UINT64_MAX};
+    failing_query_try_all(&q);
 }
 END_TEST
 
