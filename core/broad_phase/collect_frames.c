@@ -195,6 +195,16 @@ static imp_code rest_pair(collection *all, frame_list *frames, size_t k, double 
     return code;
 }
 
+/* What gives a pair frames that slip, in this order: each adds to the slip what the one before has
+ * found. */
+static const struct {
+    bool (*may)(const collection *all, const candidate_pair *p);
+    imp_code (*change)(collection *all, frame_list *frames, size_t k, double *slip,
+                       imp_error *error);
+} steps[] = {{frames_may_set_aside, frames_set_aside},
+             {may_turn_within, rest_pair},
+             {frames_may_be_held, frames_hold_pair}};
+
 enum { PAIRS_PER_CHECK = 64 }; /* pairs between checks of the limits: some milliseconds */
 
 static imp_code find_frames(collection *all, frame_list *frames, bool *done, imp_error *error)
@@ -208,22 +218,17 @@ static imp_code find_frames(collection *all, frame_list *frames, bool *done, imp
         *done = k % PAIRS_PER_CHECK != PAIRS_PER_CHECK - 1 || !collection_must_end(all);
         for (int side = 0; side < 2 && *done && code == IMP_SUCCESS; ++side) {
             const candidate *c = p->side[side];
-            const surface_view view = {c->body, c->surface, c->left_out + motion,
-                                       {0, 0},  {0, 0},     NAN};
+            const surface_view view = {.body = c->body,
+                                       .surface = c->surface,
+                                       .left_out = c->left_out + motion,
+                                       .moment = NAN};
             code = frames_find(all, frames, c, &view, &frames->of_pair[k][side], error);
             *done = frames->of_pair[k][side] != NONE;
         }
         double slip = 0;
-        if (code == IMP_SUCCESS && *done && frames_may_set_aside(all, p)) {
-            code = frames_set_aside(all, frames, k, &slip, error);
-            *done = frames->of_pair[k][0] != NONE && frames->of_pair[k][1] != NONE;
-        }
-        if (code == IMP_SUCCESS && *done && may_turn_within(all, p)) {
-            code = rest_pair(all, frames, k, &slip, error);
-            *done = frames->of_pair[k][0] != NONE && frames->of_pair[k][1] != NONE;
-        }
-        if (code == IMP_SUCCESS && *done && frames_may_be_held(all, p)) {
-            code = frames_hold_pair(all, frames, k, &slip, error);
+        for (size_t j = 0; j < sizeof steps / sizeof *steps && *done && code == IMP_SUCCESS; ++j) {
+            if (!steps[j].may(all, p)) continue;
+            code = steps[j].change(all, frames, k, &slip, error);
             *done = frames->of_pair[k][0] != NONE && frames->of_pair[k][1] != NONE;
         }
         if (code == IMP_SUCCESS && *done && frames_may_have_half_planes(all, p))

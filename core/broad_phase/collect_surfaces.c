@@ -54,7 +54,8 @@ static void make_trees(void *of, size_t task)
         tree_plan plan;
         tree *t;
         if (collection_may_end(all, 0)) return;
-        const surface_view view = {s->body, s->surface, all->common_motion, {0, 0}, {0, 0}, NAN};
+        const surface_view view = {
+            .body = s->body, .surface = s->surface, .left_out = all->common_motion, .moment = NAN};
         if (!plan_of(all, &view, &plan)) continue;
         if (scene_tree(all->scene, s->body, s->surface, &plan, all->with_roots, &t, &s->growth,
                        NULL) == IMP_SUCCESS)
@@ -117,7 +118,8 @@ static imp_code collect_surface(collection *all, size_t body, size_t index, imp_
     }
     const size_t k = all->list->count;
     candidate *made = &all->list->candidates[k];
-    const surface_view view = {body, index, all->common_motion, {0, 0}, {0, 0}, NAN};
+    const surface_view view = {
+        .body = body, .surface = index, .left_out = all->common_motion, .moment = NAN};
     const imp_code code = collection_make_tree(all, &view, made, &exists, error);
     if (code != IMP_SUCCESS || !exists) return code;
     all->list->count += 1;

@@ -296,12 +296,7 @@ surface *surface_new_aside(const surface *s, size_t maps, maps_aside aside)
     for (size_t k = 0; k < maps && ok; ++k)
         if (!maps_aside_has(aside, k))
             ok = surface_add_instance(made, s->maps[k].origin) == IMP_SUCCESS;
-    if (ok) memcpy(made->lo, s->lo, sizeof made->lo), memcpy(made->hi, s->hi, sizeof made->hi);
-    ok = ok && surface_divide(made) == IMP_SUCCESS;
-    if (ok) surface_set_body(made, s->body, s->index), made->held_slip = aside.slip;
-    if (ok) return made;
-    surface_free(made);
-    return NULL;
+    return surface_finish(made, ok, s, aside.slip);
 }
 
 imp_status surface_move_from_aside(const surface *s, size_t maps, maps_aside aside, double t,

@@ -4,8 +4,6 @@
 
 #include "core/surface/held.h"
 
-#include <string.h>
-
 #include "core/surface/clocked.h"
 #include "core/surface/slip.h"
 
@@ -149,10 +147,5 @@ surface *surface_new_held(const surface *s, size_t maps, held_maps held)
     for (size_t k = 0; k < maps && ok; ++k)
         ok = k < held.count ? add_held(made, s->maps[k].origin, moment)
                             : surface_add_instance(made, s->maps[k].origin) == IMP_SUCCESS;
-    if (ok) memcpy(made->lo, s->lo, sizeof made->lo), memcpy(made->hi, s->hi, sizeof made->hi);
-    ok = ok && surface_divide(made) == IMP_SUCCESS;
-    if (ok) surface_set_body(made, s->body, s->index), made->held_slip = held.slip;
-    if (ok) return made;
-    surface_free(made);
-    return NULL;
+    return surface_finish(made, ok, s, held.slip);
 }

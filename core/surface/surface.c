@@ -90,6 +90,16 @@ surface *surface_new_inner(const surface *s, size_t maps)
     return NULL;
 }
 
+surface *surface_finish(surface *made, bool ok, const surface *s, double slip)
+{
+    if (ok) memcpy(made->lo, s->lo, sizeof made->lo), memcpy(made->hi, s->hi, sizeof made->hi);
+    ok = ok && surface_divide(made) == IMP_SUCCESS;
+    if (ok) surface_set_body(made, s->body, s->index), made->held_slip = slip;
+    if (ok) return made;
+    surface_free(made);
+    return NULL;
+}
+
 void surface_free(surface *s)
 {
     if (s == NULL) return;

@@ -103,6 +103,10 @@ static inline bool map_turns_exactly(const mapping *map)
 /* Whether the pose's rotation depends on time. */
 bool pose_turns(const imp_pose *pose);
 
+/* Gives a surface that was made of some maps of s the domain, the pieces and the place of s, and
+ * its points' slip. `ok`: its maps are there. NULL: no memory, and what was made is freed. */
+surface *surface_finish(surface *made, bool ok, const surface *s, double slip);
+
 /* Whether it is exactly 1 at all times of the pose. */
 bool pose_turn_is_identity(const imp_pose *pose);
 
