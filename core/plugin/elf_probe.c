@@ -135,9 +135,7 @@ static bool names_interpreter(elf_file *file)
 {
     Elf64_Phdr part;
     for (Elf64_Half k = 0; k < file->header.e_phnum; ++k)
-        if (elf_file_read(file, file->header.e_phoff + k * sizeof part, &part, sizeof part) &&
-            part.p_type == PT_INTERP)
-            return true;
+        if (elf_file_segment(file, k, &part) && part.p_type == PT_INTERP) return true;
     return false;
 }
 
