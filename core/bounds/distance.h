@@ -125,11 +125,11 @@ typedef struct piece_hint {
 typedef struct distance_outcome {
     time_window left; /* of the window; outside, the nodes are farther apart than gamma_clear */
     bool is_apart;    /* during the whole window */
-    double lower;     /* bound of the distance over the window, if below gamma_clear; length */
-    bool has_start;   /* a ball's distance cut the window's start (distance_cut_start) */
-    int side;         /* the side whose node to split; -1: none */
-    double bend[3];   /* nonlinear extents of that node in the other's frame, about; length */
-    piece_hint hint;  /* of two roots of many pieces */
+    double lower; /* bound of the distance over what was looked at, if below gamma_clear; length */
+    bool has_start;  /* a ball's distance cut the window's start (distance_cut_start) */
+    int side;        /* the side whose node to split; -1: none */
+    double bend[3];  /* nonlinear extents of that node in the other's frame, about; length */
+    piece_hint hint; /* of two roots of many pieces */
 } distance_outcome;
 
 /* Whether maps of the other side rotate its surface, so that distances hold only with a slip. */

@@ -78,10 +78,10 @@ void search_path_clear(search_path *path)
 
 /* --- What is in one --------------------------------------------------------------------------- */
 
-static bool is_plugin_name(const char *name)
+bool is_named_so(const char *name)
 {
-    size_t length = strlen(name);
-    return name[0] != '.' && length > 3 && strcmp(name + length - 3, ".so") == 0;
+    const size_t length = strlen(name);
+    return length > 3 && strcmp(name + length - 3, ".so") == 0;
 }
 
 static int compare_names(const void *a, const void *b)
@@ -104,7 +104,9 @@ static names_status read_names(plugin_names *names, DIR *stream)
         errno = 0;
         const struct dirent *entry = readdir(stream);
         if (entry == NULL) return errno ? NAMES_UNREADABLE : NAMES_READ;
-        if (is_plugin_name(entry->d_name) && !add_name(names, entry->d_name)) return NAMES_MEMORY;
+        if (entry->d_name[0] != '.' && is_named_so(entry->d_name) &&
+            !add_name(names, entry->d_name))
+            return NAMES_MEMORY;
     }
 }
 

@@ -33,6 +33,9 @@ bool search_path_add_defaults(search_path *path, const char *list);
 
 void search_path_clear(search_path *path);
 
+/* Whether a name ends in ".so" and has more than that. */
+bool is_named_so(const char *name);
+
 /* Names in a directory that may be plugins: ending in ".so", not beginning with a dot, in
  * bytewise order whatever the file system's. */
 typedef struct plugin_names {

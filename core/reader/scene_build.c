@@ -6,6 +6,7 @@
 #include "core/base/fp_mode.h"
 #include "core/base/text.h"
 #include "core/base/unconst.h"
+#include "core/common/search_path.h"
 #include "core/plugin/isolate.h"
 #include "core/plugin/json_describe.h"
 #include "core/plugin/parameter_numbers.h"
@@ -34,8 +35,7 @@ static imp_code refuse_type(const imp_registry *registry, imp_type_kind kind, co
     if (registry_find_file(registry, other, name) != NULL)
         return place_error(at, error, IMP_ERROR_SCENE, "got the %s '%s', must be a %s; %s",
                            kind_word(other), name, kind_word(kind), verb);
-    const size_t length = strlen(name);
-    if (length > 3 && strcmp(name + length - 3, ".so") == 0)
+    if (is_named_so(name))
         return place_error(at, error, IMP_ERROR_SCENE,
                            "'%.80s' is a file, must be the name of a %s; give the directory of the "
                            "file by --plugin-path and take a name from `impinge list`",

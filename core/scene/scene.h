@@ -86,6 +86,7 @@ size_t scene_surface_count(const imp_scene *scene, size_t body);
 
 /* NULL: there is none. */
 const surface *scene_surface(const imp_scene *scene, size_t body, size_t index);
+const surface *scene_piece(const imp_scene *scene, imp_place at);
 
 /* Estimates the bytes that its bodies and surfaces hold, without their trees. */
 uint64_t scene_bytes(const imp_scene *scene);

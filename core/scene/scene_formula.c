@@ -11,17 +11,9 @@
 
 /* What the surfaces of a scene are, as formulas. */
 
-/* NULL: there is none. */
-static const surface *piece_at(const imp_scene *scene, imp_place at)
-{
-    const surface *s = scene_surface(scene, at.body, at.surface);
-    if (s == NULL || at.piece >= imp_scene_piece_count(scene, at.body, at.surface)) return NULL;
-    return surface_part(s, at.piece);
-}
-
 size_t imp_piece_stage_count(const imp_scene *scene, imp_place at)
 {
-    const surface *s = piece_at(scene, at);
+    const surface *s = scene_piece(scene, at);
     return s != NULL ? surface_map_count(s) + 1 : 0;
 }
 
@@ -37,7 +29,7 @@ imp_code imp_piece_stage(const imp_scene *scene, imp_place at, size_t stage, imp
 {
     if (scene == NULL || info == NULL) return error_set_missing(why, "imp_piece_stage");
     if (stage >= imp_piece_stage_count(scene, at)) return no_stage(scene, at, stage, why);
-    const shared_instance *origin = surface_origin(piece_at(scene, at), stage);
+    const shared_instance *origin = surface_origin(scene_piece(scene, at), stage);
     *info = (imp_stage){.kind = stage == 0 ? IMP_TYPE_SURFACE : IMP_TYPE_MAP,
                         .type = stage == 0 ? origin->surface->name : origin->map->name,
                         .identity = origin};
@@ -47,7 +39,7 @@ imp_code imp_piece_stage(const imp_scene *scene, imp_place at, size_t stage, imp
 FP_APART static imp_code formula_of(const imp_scene *scene, imp_place at, size_t stage, char **text,
                                     imp_error *why)
 {
-    const surface *s = piece_at(scene, at);
+    const surface *s = scene_piece(scene, at);
     const imp_status status = surface_formula(s, stage, text);
     if (status == IMP_STATUS_OK) return IMP_SUCCESS;
     surface_fault(s, why, ": %s", surface_status_message(s, status).text);

@@ -17,11 +17,10 @@ size_t imp_scene_piece_count(const imp_scene *scene, size_t body, size_t index)
     return s != NULL ? surface_part_count(s) : 0;
 }
 
-/* Returns the surface of a place; NULL: there is none. */
-static const surface *piece_at(const imp_scene *scene, imp_place at)
+const surface *scene_piece(const imp_scene *scene, imp_place at)
 {
     const surface *s = scene_surface(scene, at.body, at.surface);
-    if (s == NULL || at.piece >= imp_scene_piece_count(scene, at.body, at.surface)) return NULL;
+    if (s == NULL || at.piece >= surface_part_count(s)) return NULL;
     return surface_part(s, at.piece);
 }
 
@@ -70,7 +69,7 @@ static imp_code no_surface(const imp_scene *scene, imp_place at, imp_error *why)
 FP_APART static imp_code eval(const imp_scene *scene, imp_place at, size_t n, const double *p,
                               double *x, double *error, imp_error *why)
 {
-    const surface *s = piece_at(scene, at);
+    const surface *s = scene_piece(scene, at);
     if (s == NULL) return no_surface(scene, at, why);
     const imp_status status = surface_eval(s, n, p, x, error);
     if (status == IMP_STATUS_DOMAIN && refuse_outside(s, n, p, why) != IMP_SUCCESS)
@@ -92,7 +91,7 @@ static bool is_inside(const surface *s, const double lo[3], const double hi[3])
 FP_APART static imp_code include(const imp_scene *scene, imp_place at, const double lo[3],
                                  const double hi[3], imp_model model[3], imp_error *why)
 {
-    const surface *s = piece_at(scene, at);
+    const surface *s = scene_piece(scene, at);
     if (s == NULL) return no_surface(scene, at, why);
     if (!is_inside(s, lo, hi))
         return error_set(why, IMP_ERROR_USAGE,
@@ -142,7 +141,7 @@ FP_APART static imp_code piece_motion(const imp_scene *scene, imp_place at, doub
                                       imp_rigid_motion *motion, imp_error *why)
 {
     double lo[3], hi[3];
-    const surface *s = piece_at(scene, at);
+    const surface *s = scene_piece(scene, at);
     if (s == NULL) return no_surface(scene, at, why);
     surface_domain(s, lo, hi);
     const double first = from < to ? from : to, last = from < to ? to : from;
@@ -168,7 +167,7 @@ imp_code imp_piece_motion(const imp_scene *scene, imp_place at, double from, dou
 
 void imp_piece_domain(const imp_scene *scene, imp_place at, double lo[3], double hi[3])
 {
-    const surface *s = piece_at(scene, at);
+    const surface *s = scene_piece(scene, at);
     if (lo == NULL || hi == NULL) return;
     for (int j = 0; j < 3; ++j) lo[j] = INFINITY, hi[j] = -INFINITY;
     if (s != NULL) surface_domain(s, lo, hi);

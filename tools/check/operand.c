@@ -10,6 +10,7 @@
 #include <string.h>
 #include <unistd.h>
 
+#include "core/common/search_path.h"
 #include "core/common/spelling.h"
 #include "tools/check/fate.h"
 #include "tools/cli/query.h"
@@ -17,10 +18,8 @@
 
 bool operand_is_path(const char *operand)
 {
-    const size_t length = strlen(operand);
     return strpbrk(operand, OPERAND_BLANKS "=") == NULL &&
-           (strchr(operand, '/') != NULL ||
-            (length > 3 && strcmp(operand + length - 3, ".so") == 0));
+           (strchr(operand, '/') != NULL || is_named_so(operand));
 }
 
 static void lookup_work(void *result, const void *data)
