@@ -1025,10 +1025,11 @@ EXTRA_DIST += \
 # ways of its own: looks of pictures, pages, terminals, files, budgets and many processes are the first
 # part's. AddressSanitizer handles stack overflows and ends of threads itself, before the command can.
 # test_lanes.c has all kernels a second time: it takes more than a minute to compile with sanitizers,
-# which see these kernels in all other suites.
+# which see these kernels in all other suites. test_tightness.c and test_loosened.c judge how good bounds are:
+# these bounds are computed with sanitizers in the suites of types and of queries.
 all_suites = $(if $(filter $(script_suites),$(TESTS)),$(release_suites)) $(TESTS)
 clang_suites = $(filter-out %.bats,$(TESTS))
-not_sanitized = tests/unit/test_lanes
+not_sanitized = tests/unit/test_lanes tests/unit/test_loosened tests/unit/test_tightness
 sanitized_suites = $(filter-out $(script_suites) $(not_sanitized) \
     $(patsubst %,tests/cli/%.bats,bench check check_manners check_proofs cli cli_list completion files \
       hostile hostile_hangs host host_cache host_lies matrix mpi page \
