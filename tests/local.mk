@@ -108,6 +108,7 @@ check_suites = \
     tests/unit/test_strategy \
     tests/unit/test_shared_motion \
     tests/unit/test_series \
+    tests/unit/test_meetings \
     tests/unit/test_upper_times \
     tests/unit/test_sliding \
     tests/unit/test_spheres \
