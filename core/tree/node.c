@@ -13,8 +13,9 @@
 
 /* --- Memory ----------------------------------------------------------------------------------- */
 
-/* Halves are mostly made in pairs. */
-static const arena_growth node_growth = {2 * sizeof(node), sizeof(node), 25, 64 * sizeof(node)};
+/* Halves are mostly made in pairs. Most trees of large scenes have some ten nodes: these get blocks
+ * of one after the first, so that none stays unused. */
+static const arena_growth node_growth = {2 * sizeof(node), sizeof(node), 10, 64 * sizeof(node)};
 
 /* Reserves memory for a node, which is then published or given back. NULL: no memory. */
 static node *node_reserve(tree *t, tree_growth *growth)

@@ -13,7 +13,7 @@ const net net_none;
 /* Reserves memory for a net. NULL: no memory. */
 static net *net_alloc(tree *t, size_t bytes, tree_growth *growth)
 {
-    const arena_growth sizes = {bytes, bytes, 400, 64 * bytes};
+    const arena_growth sizes = {bytes, bytes, 100, 64 * bytes};
     net *n = arena_next(&t->nets, bytes);
     if (n != NULL) return n;
     pthread_mutex_lock(&t->lock);

@@ -26,8 +26,9 @@ typedef struct span {
 /* --- Memory ----------------------------------------------------------------------------------- */
 
 /* The first block holds what the root's first halves begin with: most trees of large scenes are
- * small. */
-static const arena_growth posing_growth = {sizeof(span) + sizeof(shape), sizeof(double), 25, 8192};
+ * small. The next hold one shape or one span each, until a twentieth of all is more than a span: of
+ * a block that is a part of a span larger than a shape, that part is left unused. */
+static const arena_growth posing_growth = {sizeof(span) + sizeof(shape), sizeof(double), 5, 8192};
 
 /* --- Shapes ----------------------------------------------------------------------------------- */
 
