@@ -175,7 +175,6 @@ core_bounds = \
     core/bounds/gap_lines.c core/bounds/gap_lines.h \
     core/bounds/gjk.h \
     core/bounds/gjk_axis.c core/bounds/gjk_axis.h \
-    core/bounds/linear_contact.c core/bounds/linear_contact.h \
     core/bounds/moving_boxes.c core/bounds/moving_boxes.h \
     core/bounds/net_axis.c core/bounds/net_axis.h \
     core/bounds/divided_heights.h core/bounds/paraboloid_frame.h \
@@ -211,6 +210,7 @@ core_broad_phase = \
     core/broad_phase/candidate.c core/broad_phase/candidate.h \
     core/broad_phase/candidates.c core/broad_phase/candidates.h \
     core/broad_phase/candidates_part.c \
+    core/broad_phase/candidates_rest.c core/broad_phase/candidates_rest.h \
     core/broad_phase/collect_aside.c \
     core/broad_phase/collect_frames.c core/broad_phase/collect_glances.c \
     core/broad_phase/collect_half_planes.c core/broad_phase/collect_holds.c \
@@ -246,7 +246,6 @@ core_solver = \
     core/solver/query_inside.c \
     core/solver/min_distance.c core/solver/min_distance.h \
     core/solver/pair_heap.c core/solver/pair_heap.h \
-    core/solver/pair_meeting.c core/solver/pair_meeting.h \
     core/solver/pair_note.h \
     core/solver/pair_spread.c core/solver/pair_spread.h \
     core/solver/pair_step.c core/solver/pair_step.h \

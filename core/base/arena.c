@@ -36,6 +36,15 @@ void *arena_take(arena *a, const arena_growth *growth, size_t bytes, size_t *mad
     return fresh->memory;
 }
 
+size_t arena_bytes(const arena *a)
+{
+    size_t all = 0;
+    for (const arena_block *b = atomic_load_explicit(&a->newest, memory_order_relaxed); b != NULL;
+         b = b->next)
+        all += sizeof *b + b->capacity;
+    return all;
+}
+
 void arena_clear(arena *a, arena_store *store)
 {
     arena_block *block = atomic_load_explicit(&a->newest, memory_order_relaxed);

@@ -48,6 +48,9 @@ static inline void *arena_next(arena *a, size_t bytes)
 void *arena_take(arena *a, const arena_growth *growth, size_t bytes, size_t *made,
                  arena_store *store);
 
+/* Returns the bytes of all blocks. No other thread may take room meanwhile. */
+size_t arena_bytes(const arena *a);
+
 /* Gives all blocks to the store or, if that is NULL, frees them. */
 void arena_clear(arena *a, arena_store *store);
 

@@ -182,7 +182,7 @@ imp_code candidates_find(candidate_list *list, imp_scene *scene, const imp_optio
         options->baseline == IMP_BASELINE_NONE; /* the paper's algorithm has no frames */
     collection all = {.scene = scene,
                       .slip_most = collection_slip_most(options, search),
-                      .may_rest = search->may_rest,
+                      .in_slices = search->in_slices,
                       .slip_useful = search->slip_useful,
                       .may_halve = search->may_halve,
                       .spans = SPANS_A_QUERY,

@@ -65,7 +65,8 @@ imp_code candidates_part(candidate_list *list, const candidate_list *whole, size
     list->pairs = arena_store_room(NULL, count * sizeof *list->pairs);
     bool ok = list->candidates != NULL && list->pairs != NULL;
     for (size_t k = 0; ok && k < count; ++k) {
-        list->pairs[k] = (candidate_pair){.side = {NULL, NULL}, .slips = pairs[k].slips};
+        list->pairs[k] = (candidate_pair){
+            .side = {NULL, NULL}, .slips = pairs[k].slips, .rests = pairs[k].rests};
         for (int side = 0; side < 2; ++side) {
             const candidate *from = pairs[k].side[side];
             const size_t before = side == 0 ? 0 : span[0].count;
@@ -133,7 +134,7 @@ imp_code candidates_frame(candidate_list *list, const candidate_list *whole, siz
     collection all = {.scene = scene,
                       .gamma_clear = search->gamma_clear,
                       .slip_most = collection_slip_most(options, search),
-                      .may_rest = search->may_rest,
+                      .in_slices = search->in_slices,
                       .slip_useful = search->slip_useful,
                       .may_halve = search->may_halve,
                       .spans = SPANS_A_QUERY,

@@ -55,7 +55,7 @@ static size_t motion_of(const candidate_pair *p)
  * one has a symmetry. */
 static bool may_turn_within(const collection *all, const candidate_pair *p)
 {
-    if (!all->may_rest || all->slip_most < 0) return false;
+    if (all->slip_most < 0) return false;
     const surface *const s[2] = {tree_surface(p->side[0]->tree), tree_surface(p->side[1]->tree)};
     bool moves = false, turns = false;
     for (int k = 0; k < 2; ++k) {
@@ -151,7 +151,8 @@ static imp_code find_slip(collection *all, candidate *const side[2], const time_
     const imp_status status =
         surface_pair_slip(s, of_pieces, bare, &all_times, times->lo, slip, &asked);
     const screw_rest_times at = {&all_times, times->lo, 0.5 * all->slip_most};
-    if (status == IMP_STATUS_OK && all->may_halve && !(*slip <= all->slip_most) &&
+    if (status == IMP_STATUS_OK && all->may_halve && !all->in_slices &&
+        !(*slip <= all->slip_most) &&
         (surface_is_screw_piece(s[0]) || surface_is_screw_piece(s[1])))
         return find_screw_slip(all, side, &at, bare, before, slip, error);
     if (status == IMP_STATUS_OK) return IMP_SUCCESS;
@@ -164,12 +165,42 @@ static imp_code find_slip(collection *all, candidate *const side[2], const time_
     return surface_set_code(status, error);
 }
 
+/* Whether the maps of the surface may depend on time. */
+static bool may_move(const surface *s, const imp_region *times)
+{
+    imp_pose pose;
+    if (surface_map_count(s) == 0) return false;
+    if (surface_pose(s, times, &pose) != IMP_STATUS_OK) return true;
+    bool depends = false;
+    for (int i = 0; i < 3; ++i) {
+        depends = depends || pose.shift[i].depends != 0;
+        for (int j = 0; j < 3; ++j) depends = depends || pose.turn[i][j].depends != 0;
+    }
+    return depends;
+}
+
+/* Notes that a pair has trees of one moment in each slice, which candidates_rest makes. Lemma. If
+ * its distance at any time differs by at most s from that of one moment, it differs by at most 2 s
+ * from that of any other. */
+static void rest_in_slices(collection *all, candidate_pair *p, candidate *const side[2],
+                           const time_window *times, double own, double *found)
+{
+    const double slip = sum_upper(2 * own, *found);
+    const imp_region over = region_make((double[3]){0, 0, times->lo}, (double[3]){0, 0, times->hi});
+    if (!(slip <= all->slip_most)) return;
+    for (unsigned k = 0; k < 2; ++k)
+        p->rests |= (unsigned)may_move(tree_surface(side[k]->tree), &over) << k;
+    if (p->rests == 0) return;
+    *found = slip;
+    if (slip > all->list->slip) all->list->slip = slip;
+}
+
 /* Gives a pair that only turns within itself trees of one moment, and adds what that slips to
  * *found. */
 static imp_code rest_pair(collection *all, frame_list *frames, size_t k, double *found,
                           imp_error *error)
 {
-    const candidate_pair *p = &all->list->pairs[k];
+    candidate_pair *p = &all->list->pairs[k];
     size_t *of_pair = frames->of_pair[k];
     time_window times;
     double slip;
@@ -182,6 +213,10 @@ static imp_code rest_pair(collection *all, frame_list *frames, size_t k, double 
     if (!all->may_halve && frames_have_two_lines(frames, k)) return IMP_SUCCESS;
     candidate *const side[2] = {&frames->at[of_pair[0]].made, &frames->at[of_pair[1]].made};
     code = find_slip(all, side, &times, *found, &slip, error);
+    if (code == IMP_SUCCESS && all->in_slices) {
+        rest_in_slices(all, p, side, &times, slip, found);
+        return IMP_SUCCESS;
+    }
     slip = sum_upper(slip, *found);
     if (code != IMP_SUCCESS || !(slip <= all->slip_most)) return code;
     *found = slip;

@@ -80,7 +80,7 @@ imp_code frames_halve_pair(collection *all, frame_list *frames, size_t k, double
     int asked;
     imp_status status = surface_half_plane(s, &boxes, &over, of, &more, &asked);
     /* Sections hold points that are near at one time: a slice's least distance may be greater. */
-    if (status == IMP_STATUS_OK && !(more < INFINITY) && all->may_rest &&
+    if (status == IMP_STATUS_OK && !(more < INFINITY) && !all->in_slices &&
         surface_is_screw_piece(s[0]) && surface_is_screw_piece(s[1])) {
         double near = sum_upper(all->gamma_clear, slip); /* at the moment, if the pair rests */
         tree *const t[2] = {frames->at[of_pair[0]].made.tree, frames->at[of_pair[1]].made.tree};

@@ -63,7 +63,7 @@ typedef struct collection {
     bool is_nearest;      /* of the candidate_search */
     size_t common_motion; /* number of last maps of all surfaces that all trees leave out */
     double slip_most;     /* of the list; < 0: nothing that slips may replace a surface; length */
-    bool may_rest;        /* of the candidate_search; else no tree is of one moment */
+    bool in_slices;       /* of the candidate_search */
     double slip_useful;   /* of the candidate_search */
     bool may_halve;       /* half planes are used; not without slip_most */
     size_t spans;         /* of time that may still be looked at for maps to set aside */

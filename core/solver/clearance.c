@@ -73,7 +73,13 @@ static imp_code begin_task(clearance_search *c, imp_error *error)
         finish_inside(c, &inside);
         return code;
     }
-    return clearance_begin_distance(c, group, error);
+    const time_window times = {c->answer.t_start, c->answer.t_end};
+    if (candidates_rest(c->list, group->first, group->count, &times, &c->moments, c->stats,
+                        error) != IMP_SUCCESS)
+        return error->code;
+    const imp_code begun = clearance_begin_distance(c, group, error);
+    if (begun != IMP_SUCCESS) candidates_wake(c->list, &c->moments, c->stats);
+    return begun;
 }
 
 /* Returns the counts and time of the current task. */
@@ -112,6 +118,7 @@ void clearance_finish_task(clearance_search *c, imp_reason reason)
     c->answers[c->current++] = c->answer;
     min_distance_clear(&c->distance);
     impact_clear(&c->violation);
+    candidates_wake(c->list, &c->moments, c->stats);
     c->stage = STAGE_NEXT;
 }
 
@@ -143,7 +150,8 @@ clearance_state clearance_look(const clearance_search *c)
         .t_lower = c->stage == STAGE_VIOLATION ? c->violation.t_lower : NAN,
         .heap = searched ? m->heap.count + m->start_count : c->violation.heap.count,
         .bytes = sizeof *c + c->group_count * sizeof *c->groups + c->current * sizeof *c->answers +
-                 candidates_bytes(&c->own) + m->start_capacity * sizeof(pair) +
+                 candidates_bytes(&c->own) + c->moments.capacity * sizeof *c->moments.at +
+                 m->start_capacity * sizeof(pair) +
                  (m->heap.capacity + c->violation.heap.capacity) * PAIR_HEAP_BYTES};
 }
 

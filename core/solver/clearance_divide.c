@@ -133,6 +133,7 @@ void clearance_free(clearance_search *c)
     if (c == NULL) return;
     min_distance_clear(&c->distance);
     impact_clear(&c->violation);
+    if (c->list != NULL) candidates_wake(c->list, &c->moments, c->stats);
     candidates_clear(&c->own);
     inside_free(c->insides);
     arena_store *store = scene_store(c->scene);

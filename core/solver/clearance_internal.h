@@ -3,6 +3,7 @@
 #ifndef CORE_SOLVER_CLEARANCE_INTERNAL_H
 #define CORE_SOLVER_CLEARANCE_INTERNAL_H
 
+#include "core/broad_phase/candidates_rest.h"
 #include "core/solver/clearance.h"
 #include "core/solver/time_of_impact.h"
 
@@ -36,6 +37,7 @@ struct clearance_search {
     candidate_list own;    /* the same pairs, with new trees that only recent slices have used */
     uint64_t shared_bytes; /* stats->bytes without the trees of `own`, */
     uint64_t fresh_bytes;  /* and with them, when they were new */
+    candidate_moments moments; /* of the list, for the current task */
     imp_stats *stats;
     proof_logs *proof; /* NULL: none is kept */
     bool by_violation; /* the search for a violation decided the last task */

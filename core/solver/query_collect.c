@@ -53,9 +53,9 @@ double query_searched_gamma_clear(const imp_query *query, double gamma_clear)
     return slip > 0 ? sum_upper(gamma_clear, slip) : gamma_clear;
 }
 
-static bool may_rest(const imp_query *query)
+static bool in_slices(const imp_query *query)
 {
-    return query->clearance == NULL || clearance_is_of_all_times(query->clearance);
+    return query->clearance != NULL && !clearance_is_of_all_times(query->clearance);
 }
 
 /* Whether only the nearest pair of all is sought, at each time, and not that of each two bodies. */
@@ -80,7 +80,7 @@ static candidate_search search_of(const imp_query *query)
     return (candidate_search){
         .gamma_clear = near,
         .is_nearest = is_nearest(query),
-        .may_rest = may_rest(query),
+        .in_slices = in_slices(query),
         .slip_useful = slip_useful(query),
         .slip_most = query->clearance != NULL ? clearance_slip_most(query->clearance) : INFINITY,
         .may_halve = query->proof == NULL && query->impact.spread == NULL,

@@ -43,9 +43,9 @@ static imp_code hierarchy_new(const surface *s, double t_start, double t_end,
     return code;
 }
 
-static hierarchy *hold(hierarchy *h)
+hierarchy *hierarchy_hold(hierarchy *h)
 {
-    atomic_fetch_add_explicit(&h->holders, 1, memory_order_relaxed);
+    if (h != NULL) atomic_fetch_add_explicit(&h->holders, 1, memory_order_relaxed);
     return h;
 }
 
@@ -67,7 +67,7 @@ static hierarchy *find_kept(instance_shelf *shelf, double t_start, double t_end)
 {
     for (int k = 0; k < INSTANCE_KEPT_MAX && shelf->kept[k].what != NULL; ++k) {
         hierarchy *h = shelf->kept[k].what;
-        if (h->lo == t_start && h->hi == t_end) return hold(h);
+        if (h->lo == t_start && h->hi == t_end) return hierarchy_hold(h);
     }
     return NULL;
 }
@@ -88,7 +88,7 @@ imp_code hierarchy_of(const surface *s, double t_start, double t_end, const limi
     pthread_mutex_lock(&shelf->lock);
     *found = find_kept(shelf, t_start, t_end);
     if (*found == NULL)
-        instance_shelf_add(shelf, (instance_kept){hold(*found = made), release_kept});
+        instance_shelf_add(shelf, (instance_kept){hierarchy_hold(*found = made), release_kept});
     else
         hierarchy_release(made);
     pthread_mutex_unlock(&shelf->lock);

@@ -37,7 +37,9 @@ typedef struct cluster {
  * NULL where `watch` ended it. Any thread. */
 imp_code hierarchy_of(const surface *s, double t_start, double t_end, const limit_watch *watch,
                       arena_store *store, hierarchy **found, imp_error *error);
-void hierarchy_release(hierarchy *h); /* h may be NULL */
+/* Holds it once more. h may be NULL in both. */
+hierarchy *hierarchy_hold(hierarchy *h);
+void hierarchy_release(hierarchy *h);
 
 const cluster *hierarchy_root(const hierarchy *h);
 

@@ -114,6 +114,11 @@ imp_code tree_make_root(tree *t, tree_growth *growth, imp_error *error);
 /* Makes another tree of t's surface and plan, whose root is a copy that is not counted: for
  * searches whose counts must not depend on other threads. */
 imp_code tree_new_from_root(const tree *t, tree **made, tree_growth *growth, imp_error *error);
+
+/* Makes another tree of t's surface at one moment of its times, with its root. */
+imp_code tree_new_at(const tree *t, double moment, tree **made, tree_growth *growth,
+                     imp_error *error);
+size_t tree_own_bytes(const tree *t); /* with its nodes, without its hierarchy of pieces */
 void tree_free(tree *t);
 
 /* Trees form lists: returns the tree after t, or NULL. */

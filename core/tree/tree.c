@@ -145,6 +145,28 @@ imp_code tree_new_from_root(const tree *t, tree **made, tree_growth *growth, imp
     return IMP_SUCCESS;
 }
 
+imp_code tree_new_at(const tree *t, double moment, tree **made, tree_growth *growth,
+                     imp_error *error)
+{
+    tree_plan plan = t->plan;
+    plan.t_start = plan.t_end = moment;
+    tree *at = tree_begin(t->surface, &plan, true);
+    if (at == NULL) return error_set_memory(error);
+    at->pieces = hierarchy_hold(t->pieces); /* bounds over longer times hold at the moment, too */
+    const imp_code code = begin_root(at, growth, error);
+    if (code == IMP_SUCCESS)
+        *made = at;
+    else
+        tree_free(at);
+    return code;
+}
+
+size_t tree_own_bytes(const tree *t)
+{
+    return tree_bytes(t->begins_with_root) + arena_bytes(&t->nodes) + arena_bytes(&t->nets) +
+           arena_bytes(&t->posing.memory);
+}
+
 void tree_free(tree *t)
 {
     if (t == NULL) return;

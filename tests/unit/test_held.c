@@ -344,7 +344,13 @@ START_TEST(slices_of_what_turns_within_itself_cost_little)
                {"torus ! rotate axis=0,0,1 rate=20",
                 "torus minor_radius=0.2 ! rotate axis=0,0,1 "
                 "rate=-3 ! translate velocity=0,0,0.1",
-                1000, 20, NAN}};
+                1000, 20, NAN},
+               /* What rests at one moment of each slice: */
+               {"cylinder radius=0.4 height=0.5 ! rotate axis=0,0,1 rate=20 ! translate "
+                "offset=[[0.099,0,0]] ! rotate axis=0,0,1 rate=3",
+                "cylinder radius=0.5 height=2", 300, 50, 0.001},
+               {"disc radius=0.5 ! rotate axis=0,0,1 rate=189 ! translate offset=[[-1.3,-0.9,1.5]]",
+                "box size=1,0.8,0.6", 300, 100, NAN}};
     for (size_t n = 0; n < sizeof row / sizeof *row; ++n) {
         imp_error error;
         imp_scene *scene = imp_scene_from_pair(registry, row[n].a, row[n].b, &error);

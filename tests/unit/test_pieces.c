@@ -222,7 +222,7 @@ static int collect(int most, bool *complete, uint64_t *nodes)
     const imp_options options = imp_options_default(scene);
     asked a = {0, most};
     const candidate_limit limit = {is_reached, is_near, &a};
-    const candidate_search search = {.gamma_clear = 1e-6, .may_rest = true, .in_parts = false};
+    const candidate_search search = {.gamma_clear = 1e-6, .in_parts = false};
     candidate_list list = {0};
     imp_stats stats = {0};
     imp_error error;
