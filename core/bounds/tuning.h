@@ -72,6 +72,11 @@ TUNING_NUMBER(TUNING_WITNESS_NEAR, 0.5);
 TUNING_INTEGER(TUNING_UPPER_FIRST, 8);
 /* Each further search waits until 1 / this more pairs have been followed. */
 TUNING_INTEGER(TUNING_UPPER_SHARE, 3);
+/* Pairs without nets that are expanded of a candidate pair before a contact is first sought widely
+ * at a window's start. */
+TUNING_INTEGER(TUNING_WIDE_FIRST, 32);
+/* Each further wide search waits until 1 / this more of them have been expanded. */
+TUNING_INTEGER(TUNING_WIDE_SHARE, 1);
 /* Most steps in time of one search. */
 TUNING_INTEGER(TUNING_MARCH_STEPS, 12);
 /* Nearest points are refined only roughly while the gap is above this times the gap sought. */

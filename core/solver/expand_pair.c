@@ -12,6 +12,7 @@
 #include "core/solver/split_pair.h"
 #include "core/witness/contact_estimate.h"
 #include "core/witness/newton.h"
+#include "core/witness/wide_search.h"
 
 static resolution resolved(const impact *im) { return resolution_of(im->gamma, im->gamma_clear); }
 
@@ -185,6 +186,50 @@ static imp_code try_start(impact *im, pair *p, const distance_outcome *distances
     return IMP_SUCCESS;
 }
 
+/* Whether a contact is to be sought widely at the start of the pair's window. Surfaces that cross
+ * there from the beginning would else be divided until their remainders are below gamma, in an
+ * order that ties decide. Each candidate pair has a count of its own, in the order in which its
+ * pairs are expanded, so that the search and its contact are independent of other bodies. Not where
+ * gamma_clear is nearly gamma, as for a required distance: there the bounds themselves tell soon,
+ * and contradict a type that lies. */
+static bool is_wide_search_due(const impact *im, const pair *p)
+{
+    if (im->upper.has_nets || im->trials == NULL || im->spread != NULL) return false;
+    if (im->gamma_clear > 0.5 * im->gamma) return false;
+    pair_trials *trials = &im->trials[p->candidate_pair];
+    trials->popped += 1;
+    if (trials->next_wide == 0) trials->next_wide = TUNING_WIDE_FIRST;
+    if (trials->popped < trials->next_wide) return false;
+    trials->next_wide = trials->popped + trials->popped / TUNING_WIDE_SHARE + 1;
+    return true;
+}
+
+/* Keeps the contact that ends the search. If a smaller gamma is asked for, a contact is sought
+ * widely from the next pair at once, and intervals begin anew. */
+static impact_state end_by_contact(impact *im, const pair *p, const witness *seen)
+{
+    if (im->trials != NULL) {
+        im->trials[p->candidate_pair].popped = 0;
+        im->trials[p->candidate_pair].next_wide = 1;
+    }
+    return impact_contact(im, seen);
+}
+
+/* Seeks a contact widely at the start of the pair's window, if that is due. */
+static imp_code try_widely(impact *im, const pair *p, impact_state *state, imp_error *error)
+{
+    const node *const nodes[2] = {p->a, p->b};
+    witness seen;
+    if (!is_wide_search_due(im, p)) return IMP_SUCCESS;
+    im->stats->witness_searches += 1;
+    const imp_code code = witness_seek_widely(nodes, p->window.lo, im->gamma, &seen, error);
+    if (code != IMP_SUCCESS) return code;
+    impact_note_gap(im, &seen);
+    if (!(seen.gap_upper <= im->gamma)) return IMP_SUCCESS;
+    *state = end_by_contact(im, p, &seen);
+    return IMP_SUCCESS;
+}
+
 /* The order matters: distances may separate the nodes; clusters are only split; a witness is
  * sought at the window's start as popped, before distances cut it; then the pair is divided. */
 static imp_code expand_by_models(impact *im, pair *p, impact_state *state, imp_error *error)
@@ -204,12 +249,14 @@ static imp_code expand_by_models(impact *im, pair *p, impact_state *state, imp_e
         explanation_count(im, p, IMP_OBSTACLE_SIZE);
         return split_pair(im, p, cut_by_spread(p, im->gamma, false), NULL, state, error);
     }
+    code = try_widely(im, p, state, error);
+    if (code != IMP_SUCCESS || *state != IMPACT_RUNNING) return code;
     if (witness_is_likely(im, p, &distances)) {
         witness seen;
         code = find_witness(im, p, true, &seen, error);
         if (code != IMP_SUCCESS) return code;
         if (pair_spread_ends(im, p, &seen))
-            *state = impact_contact(im, &seen);
+            *state = end_by_contact(im, p, &seen);
         else if (precision_ends(im, p, 1))
             *state = end_by_resolution(im, p);
         if (*state != IMPACT_RUNNING) return IMP_SUCCESS;

@@ -45,6 +45,7 @@ typedef struct tests_ahead {
 typedef struct pair_trials {
     trial_rate turning; /* turning axes, in all tests except the roots' (separation.h) */
     trial_rate sliding; /* distances where axes separate nodes whose parents slid (distance.h) */
+    uint32_t popped, next_wide; /* pairs without nets; the count that the next wide search awaits */
 } pair_trials;
 
 typedef struct impact {

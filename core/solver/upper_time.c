@@ -29,7 +29,8 @@ static bool holds_contact(const upper_time *up, const pair *p)
 
 static bool is_wanted(upper_time *up, const pair *p)
 {
-    if (!strategy_has_both_hulls(p->a, p->b)) return false;
+    up->has_nets = strategy_has_both_hulls(p->a, p->b);
+    if (!up->has_nets) return false;
     up->followed += 1;
     if (up->next == 0) up->next = TUNING_UPPER_FIRST;
     if (up->followed < up->next || holds_contact(up, p)) return false;

@@ -23,6 +23,7 @@ typedef struct upper_time {
     double horizon;            /* t or a little later: windows of expanded pairs end there */
     net_paraboloid paraboloid; /* between the surfaces at the contact */
     uint32_t count;            /* of such contacts so far, each earlier than the one before */
+    bool has_nets;             /* the last expanded pair has nets, by which it may be followed */
     uint64_t followed, next;   /* pairs expanded; the count at which the next search is made */
 } upper_time;
 

@@ -61,6 +61,8 @@ few_pairs() {
     local ball='sphere radius=1.08 ! rotate axis=1,2,3 center=3,0,-2 rate=1'
     few_pairs 10 pair 'sphere radius=0.52 ! rotate center=0,1,1 rate=2' \
         'torus major_radius=1 minor_radius=0.25 ! translate velocity=0,.5,0'
+    few_pairs 100 pair 'sphere radius=1.04 ! rotate axis=0,0,1 rate=-1' \
+        'torus major_radius=1 minor_radius=0.25 ! rotate axis=0,0,1 center=-2,0,1 rate=2'
     few_pairs 1500 pair "$ball" \
         'cylinder radius=0.61 height=1.35 center=-0.223913,0,0 ends=true ! rotate axis=0,1,0 rate=3'
     few_pairs 250 clearance 'sphere radius=1.27 ! rotate axis=0,0,1 rate=-1' \

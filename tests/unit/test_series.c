@@ -85,6 +85,45 @@ START_TEST(each_answer_is_as_asked_alone)
 }
 END_TEST
 
+/* Three tori turn through the surfaces of spheres. Witnesses are sought at intervals of pairs, and
+ * these are counted for each two surfaces: a contact does not depend on other bodies. */
+START_TEST(crossings_at_the_start_are_as_asked_alone)
+{
+    enum { CROSSINGS = 3 };
+    char text[2000] = "{\"bodies\":[", a[CROSSINGS][100], b[CROSSINGS][200];
+    for (int k = 0; k < CROSSINGS; ++k) {
+        const int x = 20 * k, rate = 2 + k;
+        snprintf(a[k], sizeof a[k], "sphere radius=1.04 center=%d,0,0", x);
+        snprintf(b[k], sizeof b[k],
+                 "torus minor_radius=0.25 center=%d,0,0 ! rotate center=%d,0,1 rate=%d", x, x - 2,
+                 rate);
+        snprintf(text + strlen(text), sizeof text - strlen(text),
+                 "%s{\"surfaces\":[{\"type\":\"sphere\",\"radius\":1.04,\"center\":[%d,0,0]}]},"
+                 "{\"surfaces\":[{\"type\":\"torus\",\"minor_radius\":0.25,"
+                 "\"center\":[%d,0,0]}],\"maps\":[{\"type\":\"rotate\",\"center\":[%d,0,1],"
+                 "\"rate\":%d}]}",
+                 k > 0 ? "," : "", x, x, x - 2, rate);
+    }
+    strcat(text, "]}");
+    imp_registry *registry = query_registry();
+    imp_scene *all = scene_of(registry, text);
+    const imp_options options = imp_options_default(all);
+    imp_query *query = imp_query_new(all, &options, NULL);
+    for (int k = 0; k < CROSSINGS; ++k) {
+        const imp_result r = step(query);
+        ck_assert_int_eq(r.verdict, IMP_VERDICT_CONTACT);
+        const size_t which = r.a.body / 2;
+        const imp_result own = ask_in(registry, &(question){.a = a[which], .b = b[which]});
+        ck_assert(r.t == own.t && r.gap == own.gap && r.a.u == own.a.u && r.b.v == own.b.v);
+        ck_assert_uint_lt(own.stats.pairs, 100);
+        ck_assert_int_eq(imp_query_exclude_pair(query, NULL), IMP_SUCCESS);
+    }
+    imp_query_free(query);
+    imp_scene_free(all);
+    imp_registry_free(registry);
+}
+END_TEST
+
 static uint64_t pairs_refined(imp_registry *registry, const question *q, double *t)
 {
     imp_scene *scene = imp_scene_from_pair(registry, q->a, q->b, NULL);
@@ -162,4 +201,5 @@ START_TEST(so_do_those_of_turning_shapes)
 END_TEST
 
 SUITE_MAIN("series", each_two_bodies_meet_in_order_of_time, each_answer_is_as_asked_alone,
+           crossings_at_the_start_are_as_asked_alone,
            eight_answers_cost_little_more_than_the_finest, so_do_those_of_turning_shapes)
