@@ -175,6 +175,7 @@ core_bounds = \
     core/bounds/gap_lines.c core/bounds/gap_lines.h \
     core/bounds/gjk.h \
     core/bounds/gjk_axis.c core/bounds/gjk_axis.h \
+    core/bounds/linear_contact.c core/bounds/linear_contact.h \
     core/bounds/moving_boxes.c core/bounds/moving_boxes.h \
     core/bounds/net_axis.c core/bounds/net_axis.h \
     core/bounds/divided_heights.h core/bounds/paraboloid_frame.h \
@@ -246,6 +247,7 @@ core_solver = \
     core/solver/query_inside.c \
     core/solver/min_distance.c core/solver/min_distance.h \
     core/solver/pair_heap.c core/solver/pair_heap.h \
+    core/solver/pair_meeting.c core/solver/pair_meeting.h \
     core/solver/pair_note.h \
     core/solver/pair_spread.c core/solver/pair_spread.h \
     core/solver/pair_step.c core/solver/pair_step.h \

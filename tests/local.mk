@@ -108,6 +108,7 @@ check_suites = \
     tests/unit/test_strategy \
     tests/unit/test_shared_motion \
     tests/unit/test_series \
+    tests/unit/test_meetings \
     tests/unit/test_upper_times \
     tests/unit/test_sliding \
     tests/unit/test_spheres \
@@ -140,6 +141,7 @@ mpfi_suites = \
     tests/unit/test_distances \
     tests/unit/test_expression_bounds \
     tests/unit/test_coils \
+    tests/unit/test_round_nets \
     tests/unit/test_round_profiles \
     tests/unit/test_formula \
     tests/unit/test_keyframes \
@@ -245,6 +247,7 @@ tests_unit_test_expression_bounds_SOURCES = tests/unit/test_expression_bounds.c 
     tests/support/expression_oracle.c tests/support/oracle_number.c tests/support/judge.c tests/support/sampling.c
 tests_unit_test_expression_bounds_LDADD = plugins/libexpression.la $(LDADD)
 tests_unit_test_coils_LDADD = plugins/libexpression.la $(LDADD)
+tests_unit_test_round_nets_LDADD = plugins/libpatch.la plugins/libcommon.la $(LDADD)
 tests_unit_test_round_profiles_LDADD = plugins/libpatch.la plugins/libcommon.la $(LDADD)
 
 # Command-line tests; the environment below tells them where things are.
@@ -1023,10 +1026,11 @@ EXTRA_DIST += \
 # ways of its own: looks of pictures, pages, terminals, files, budgets and many processes are the first
 # part's. AddressSanitizer handles stack overflows and ends of threads itself, before the command can.
 # test_lanes.c has all kernels a second time: it takes more than a minute to compile with sanitizers,
-# which see these kernels in all other suites.
+# which see these kernels in all other suites. test_tightness.c and test_loosened.c judge how good bounds are:
+# these bounds are computed with sanitizers in the suites of types and of queries.
 all_suites = $(if $(filter $(script_suites),$(TESTS)),$(release_suites)) $(TESTS)
 clang_suites = $(filter-out %.bats,$(TESTS))
-not_sanitized = tests/unit/test_lanes
+not_sanitized = tests/unit/test_lanes tests/unit/test_loosened tests/unit/test_tightness
 sanitized_suites = $(filter-out $(script_suites) $(not_sanitized) \
     $(patsubst %,tests/cli/%.bats,bench check check_manners check_proofs cli cli_list completion files \
       hostile hostile_hangs host host_cache host_lies matrix mpi page \

@@ -196,6 +196,19 @@ bool separation_first_look(const node *a, const node *b, double gamma_clear, tim
                  : separation_window(a, b, gamma_clear, window, axis, turning);
 }
 
+bool separation_along(const node *a, const node *b, vec3 axis, double gamma_clear,
+                      const time_window *window)
+{
+    const strategy_hulls hulls = strategy_hulls_of(a, b);
+    time_window left = *window;
+    difference r;
+    w_range s = {-1, 1};
+    if (!a->bounded || !b->bounded) return false;
+    if (hulls != HULLS_NONE) return !cut_by_hulls(hulls, a, b, axis, gamma_clear, &left);
+    difference_at(a, b, window, &r);
+    return !fixed_axes_cut_along(&r, gamma_clear, &s, axis);
+}
+
 bool separation_approach(const node *a, const node *b, double gamma_clear, time_window *window,
                          vec3 *axis, approach *near)
 {

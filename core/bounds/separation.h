@@ -29,6 +29,11 @@ bool separation_without_nets(const node *a, const node *b, double gamma_clear, t
 bool separation_first_look(const node *a, const node *b, double gamma_clear, time_window *window,
                            vec3 *axis, trial_rate *turning, bool *more);
 
+/* Whether one axis separates the nodes over the whole window: along hulls where these can be tried,
+ * else along quadratics. */
+bool separation_along(const node *a, const node *b, vec3 axis, double gamma_clear,
+                      const time_window *window);
+
 /* What is known of how near two nodes come. */
 typedef struct approach {
     double lower;  /* bound of the distance; length */

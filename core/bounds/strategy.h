@@ -44,6 +44,9 @@
  *                           faces, or after one that does not cut   terms of third order and of
  *                           all, where terms of third order are     fourth, too
  *                           what hides the gap
+ *   meeting of corners      roots, contact only: a point and a      both time and axis follow from
+ *                           bilinear face, or two straight edges    three equations, and the points
+ *                           (linear_contact.h)                      there are a witness, mostly
  *   separating paraboloid   a contact is known; up to then only;    a plane or a paraboloid at a
  *                           for nets of at most third order         contact separates much larger
  *                           without weights (net_paraboloid.h)      nodes than axes do

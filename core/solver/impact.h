@@ -28,8 +28,10 @@ typedef enum impact_state {
 
 /* The first test of a pair and its result. */
 typedef struct pair_test {
-    pair p;         /* the window that is left, and the axis */
-    bool near;      /* whether its nodes may be within gamma_clear */
+    pair p;            /* the window that is left, and the axis */
+    bool near;         /* whether its nodes may be within gamma_clear */
+    bool meets;        /* for a candidate pair: at the window's start, at these parameters */
+    double meeting[4]; /* (s_u, s_v) of a and of b, relative to the nodes (pair_meeting.h) */
     bool any_time;  /* for a candidate pair: both exist at some time; if false, the rest is unset */
     bool done;      /* made ahead by another thread */
     uint64_t bytes; /* of nets made for it */

@@ -11,6 +11,7 @@
 #include "core/bounds/strategy.h"
 #include "core/bounds/tuning.h"
 #include "core/broad_phase/parallel.h"
+#include "core/solver/pair_meeting.h"
 
 static bool test_by_paper(const impact *im, const pair *p)
 {
@@ -85,6 +86,13 @@ static bool is_of_many(const impact *im, size_t index)
             candidate_pairs_same_bodies(both + apart, both));
 }
 
+static imp_code test_roots_fully(const impact *im, pair_test *t, imp_error *error)
+{
+    bool met;
+    const imp_code code = pair_meeting_seek(im, t, &met, error);
+    return code != IMP_SUCCESS || met ? code : pair_test_first(im, t, NULL, error);
+}
+
 static imp_code test_roots(const impact *im, uint32_t index, pair_test *t, imp_error *error)
 {
     const candidate_pair *both = &im->candidate_pairs[index];
@@ -95,7 +103,7 @@ static imp_code test_roots(const impact *im, uint32_t index, pair_test *t, imp_e
     t->p.window = window_common(im->window, pair_times(t->p.a, t->p.b));
     t->any_time = t->p.window.lo <= t->p.window.hi;
     if (!t->any_time) return IMP_SUCCESS;
-    if (!is_of_many(im, index)) return pair_test_first(im, t, NULL, error);
+    if (!is_of_many(im, index)) return test_roots_fully(im, t, error);
     t->near = moving_boxes_cut(t->p.a, t->p.b, im->gamma_clear, &t->p.window);
     t->p.is_seen_only = t->p.lacks_nets = true;
     return IMP_SUCCESS;

@@ -10,6 +10,7 @@
 #include "core/bounds/strategy.h"
 #include "core/solver/contradiction.h"
 #include "core/solver/expand_pair.h"
+#include "core/solver/pair_meeting.h"
 #include "core/solver/pair_note.h"
 
 /* Reserve heap space for half of the remaining candidate pairs, but at most this many: most are
@@ -43,8 +44,9 @@ imp_code impact_add_candidate(impact *im, uint32_t index, impact_state *state, i
     if (code == IMP_SUCCESS && t.any_time && t.near && !reserve_for_candidate(im, index))
         return IMP_SUCCESS;
     *state = IMPACT_RUNNING;
-    if (code == IMP_SUCCESS && t.any_time) impact_push(im, &t);
-    return code;
+    if (code != IMP_SUCCESS || !t.any_time) return code;
+    impact_push(im, &t);
+    return pair_meeting_try(im, &t, error);
 }
 
 /* --- Refining --------------------------------------------------------------------------------- */

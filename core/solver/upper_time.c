@@ -70,6 +70,16 @@ imp_code upper_time_follow(upper_time *up, const pair *p, double gamma, bool *so
     return IMP_SUCCESS;
 }
 
+void upper_time_note(upper_time *up, const pair *p, double t, double gamma, const witness *seen)
+{
+    if (!(seen->gap_upper <= gamma)) return;
+    up->is_known = true;
+    up->has_horizon = false;
+    up->t = t;
+    up->seen = *seen;
+    up->candidate_pair = p->candidate_pair;
+}
+
 imp_code upper_time_try(upper_time *up, const pair *p, double start, double gamma, bool *met,
                         imp_error *error)
 {
@@ -77,13 +87,8 @@ imp_code upper_time_try(upper_time *up, const pair *p, double start, double gamm
     witness seen;
     const imp_code code = witness_seek_widely(nodes, start, gamma, &seen, error);
     *met = code == IMP_SUCCESS && seen.gap_upper <= gamma;
-    if (!*met) return code;
-    up->is_known = true;
-    up->has_horizon = false;
-    up->t = start;
-    up->seen = seen;
-    up->candidate_pair = p->candidate_pair;
-    return IMP_SUCCESS;
+    if (*met) upper_time_note(up, p, start, gamma, &seen);
+    return code;
 }
 
 void upper_time_refine(upper_time *up, double gamma)

@@ -37,6 +37,10 @@ imp_code upper_time_follow(upper_time *up, const pair *p, double gamma, bool *so
 imp_code upper_time_try(upper_time *up, const pair *p, double start, double gamma, bool *met,
                         imp_error *error);
 
+/* Keeps a witness of the pair at time t if its gap is within gamma: a contact earlier than the
+ * known one. */
+void upper_time_note(upper_time *up, const pair *p, double t, double gamma, const witness *seen);
+
 /* Adapts to a smaller gamma: a contact whose gap is still small enough stays known; otherwise the
  * next pair is used to seek one. */
 void upper_time_refine(upper_time *up, double gamma);

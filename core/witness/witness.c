@@ -51,10 +51,11 @@ static bool is_known(const search_state *from, int side, const double p[3])
     return from != NULL && p[0] == from->p[side][0] && p[1] == from->p[side][1];
 }
 
-/* Evaluates both points. `from`, unless NULL, is a state of the search: a side that is at its
- * parameters, such as a point or a corner that holds it, keeps its point. */
-static imp_code state_at(const search *g, const double *y, const search_state *from,
-                         search_state *s, imp_error *error)
+/* Evaluates both points and, unless eval_error is NULL, bounds of their errors. `from`, unless
+ * NULL, is a state of the search: a side that is at its parameters, such as a point or a corner
+ * that holds it, keeps its point; eval_error is NULL then. */
+static imp_code evaluate_at(const search *g, const double *y, const search_state *from,
+                            search_state *s, double (*eval_error)[3], imp_error *error)
 {
     memcpy(s->y, y, sizeof s->y);
     for (int side = 0; side < 2; ++side) {
@@ -64,7 +65,8 @@ static imp_code state_at(const search *g, const double *y, const search_state *f
             s->x[side] = from->x[side];
             continue;
         }
-        imp_code code = search_point(of, s->p[side], &s->x[side], NULL, error);
+        double *const bounds = eval_error != NULL ? eval_error[side] : NULL;
+        imp_code code = search_point(of, s->p[side], &s->x[side], bounds, error);
         if (code == IMP_SUCCESS)
             code = bound_audit_holds_at(of, g->nodes[side], s->p[side], s->x[side].x, error);
         if (code != IMP_SUCCESS) return code;
@@ -72,6 +74,12 @@ static imp_code state_at(const search *g, const double *y, const search_state *f
     s->apart = vec3_sub(s->x[1], s->x[0]);
     s->gap = vec3_norm(s->apart);
     return IMP_SUCCESS;
+}
+
+static imp_code state_at(const search *g, const double *y, const search_state *from,
+                         search_state *s, imp_error *error)
+{
+    return evaluate_at(g, y, from, s, NULL, error);
 }
 
 /* --- Steps ------------------------------------------------------------------------------------ */
@@ -117,25 +125,34 @@ static const double NORMAL_LEAST = 0x1p-1000;
  * and the root, which halves them and counts 1, (2 * 1 + 1 + 2) / 2 + 1 < 4; of the errors 5 sums;
  * then their sum. A gap below 2^-1022 loses 2^-1075 more (vec3_norm). */
 PAD_COVERS(16, 5 + 1);
-static imp_code evaluate_gap(const search *g, const search_state *s, witness *found,
-                             imp_error *error)
+static void finish(const search *g, const search_state *s, const double eval_error[2][3],
+                   witness *found)
 {
-    double eval_error = 0;
+    double both = 0;
     for (int side = 0; side < 2; ++side) {
-        vec3 x;
-        double e[3];
-        const imp_code code = search_point(g->nodes[side]->surface, s->p[side], &x, e, error);
-        if (code != IMP_SUCCESS) return code;
-        for (int i = 0; i < 3; ++i) eval_error += e[i];
+        for (int i = 0; i < 3; ++i) both += eval_error[side][i];
         found->piece[side] = surface_piece_index(g->nodes[side]->surface);
         found->u[side] = s->p[side][0];
         found->v[side] = s->p[side][1];
         found->point[side] = s->x[side];
     }
     found->gap = s->gap;
-    found->gap_upper = padded_upper(s->gap + eval_error, 16) + PRODUCTS_UNDERFLOW;
-    found->has_normal = s->gap > NORMAL_FROM * eval_error && s->gap > NORMAL_LEAST;
+    found->gap_upper = padded_upper(s->gap + both, 16) + PRODUCTS_UNDERFLOW;
+    found->has_normal = s->gap > NORMAL_FROM * both && s->gap > NORMAL_LEAST;
     found->normal = found->has_normal ? vec3_scale(s->apart, 1 / s->gap) : (vec3){{0, 0, 0}};
+}
+
+static imp_code evaluate_gap(const search *g, const search_state *s, witness *found,
+                             imp_error *error)
+{
+    double eval_error[2][3];
+    for (int side = 0; side < 2; ++side) {
+        vec3 x;
+        const imp_code code =
+            search_point(g->nodes[side]->surface, s->p[side], &x, eval_error[side], error);
+        if (code != IMP_SUCCESS) return code;
+    }
+    finish(g, s, (const double(*)[3])eval_error, found);
     return IMP_SUCCESS;
 }
 
@@ -227,9 +244,11 @@ imp_code witness_at(const node *const nodes[2], double t, const double y[4], wit
 {
     search g = {.nodes = nodes, .t = t};
     search_state s;
+    double eval_error[2][3];
     search_begin(&g);
-    const imp_code code = state_at(&g, y, NULL, &s, error);
-    return code == IMP_SUCCESS ? evaluate_gap(&g, &s, found, error) : code;
+    const imp_code code = evaluate_at(&g, y, NULL, &s, eval_error, error);
+    if (code == IMP_SUCCESS) finish(&g, &s, (const double(*)[3])eval_error, found);
+    return code;
 }
 
 imp_code witness_eval_errors(const surface *s, size_t n, const double (*p)[3], double *eval_error,

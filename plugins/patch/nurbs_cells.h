@@ -6,6 +6,7 @@
 #include "plugins/patch/knots.h"
 #include "plugins/patch/patch.h"
 #include "plugins/patch/pieces.h"
+#include "plugins/patch/round_net.h"
 
 /* A NURBS surface as patches, one per cell
  * ========================================
@@ -34,6 +35,7 @@ typedef struct nurbs_instance {
         *velocities;        /* weights, velocities: NULL if rational, moves are not */
     cell *cells;            /* spans of v for each span of u */
     double *series;         /* of all cells */
+    round_net round;        /* of a surface at rest; ROUND_NONE of one that moves */
     struct cell_data *room; /* for making cells; kept once the instance was refilled, else NULL */
 } nurbs_instance;
 

@@ -57,6 +57,12 @@ static double bytes_of(const nurbs_instance *f)
     return (double)f->side[0].spans * (double)f->side[1].spans * each;
 }
 
+static void find_round(nurbs_instance *f)
+{
+    memset(&f->round, 0, sizeof f->round);
+    if (!f->moves) f->round = round_net_of(f->side, f->points, f->weights);
+}
+
 bool nurbs_make(nurbs_instance *f, const nurbs_data *data, double *bytes)
 {
     memset(f, 0, sizeof *f);
@@ -65,6 +71,7 @@ bool nurbs_make(nurbs_instance *f, const nurbs_data *data, double *bytes)
         if (!knots_make(&f->side[side], &data->knots[side], data->degree[side])) return false;
     if (!copy_points(f, data)) return false;
     *bytes = bytes_of(f);
+    find_round(f);
     return *bytes <= NURBS_CELLS_MAX && allocate_cells(f) && nurbs_make_cells(f);
 }
 
@@ -78,6 +85,7 @@ bool nurbs_renew(nurbs_instance *f, const nurbs_data *data)
     memcpy(f->points, data->points, 3 * count * sizeof *f->points);
     if (f->rational) memcpy(f->weights, data->weights, count * sizeof *f->weights);
     if (f->moves) memcpy(f->velocities, data->velocities, 3 * count * sizeof *f->velocities);
+    find_round(f);
     return nurbs_renew_cells(f);
 }
 
@@ -205,4 +213,25 @@ imp_status nurbs_net(const void *self, const imp_region *region, imp_net *net)
     const nurbs_instance *f = self;
     if (!nurbs_has(f, region->lo) || !nurbs_has(f, region->hi)) return IMP_STATUS_UNBOUNDED;
     return nurbs_cell_net(f, region, net);
+}
+
+/* --- Distances -------------------------------------------------------------------------------- */
+
+static imp_model nurbs_gap(const void *self, imp_model x, imp_model y, imp_model z, imp_model t)
+{
+    (void)t;
+    return round_net_distance(&((const nurbs_instance *)self)->round, x, y, z);
+}
+IMP_DISTANCE_FORMULA(nurbs_gap)
+
+imp_status nurbs_distance(const void *self, const imp_model point[4], imp_model *distance)
+{
+    const nurbs_instance *f = self;
+    if (f->round.profile.kind == ROUND_NONE) return IMP_STATUS_UNBOUNDED;
+    return nurbs_gap_distance(self, point, distance);
+}
+
+imp_status nurbs_symmetry(const void *self, imp_symmetry *symmetry)
+{
+    return round_net_symmetry(&((const nurbs_instance *)self)->round, symmetry);
 }

@@ -34,5 +34,7 @@ imp_status nurbs_eval(const void *self, size_t n, const double *p, double *x, do
 imp_status nurbs_include(const void *self, const imp_region *region, imp_model model[3]);
 imp_status nurbs_rate(const void *self, const imp_region *region, imp_rate_matrix *rates);
 imp_status nurbs_net(const void *self, const imp_region *region, imp_net *net);
+imp_status nurbs_distance(const void *self, const imp_model point[4], imp_model *distance);
+imp_status nurbs_symmetry(const void *self, imp_symmetry *symmetry);
 
 #endif

@@ -194,6 +194,17 @@ round_profile round_profile_of(const double *points, const double *weights, size
     return best.off <= ROUND_OFF_MOST * c.size ? best : (round_profile){.kind = ROUND_NONE};
 }
 
+void round_profile_widen(round_profile *p, const double *points, const double *weights,
+                         size_t count)
+{
+    const outline_points c = points_of(points, weights, count);
+    const bool is_circle = p->kind == ROUND_CIRCLE;
+    const bool may_cross = p->kind == ROUND_PLANE || (is_circle && p->ring == 0);
+    const double off = is_circle ? circle_off(&c, p) : lines_off(&c, p);
+    if (!(off <= p->off)) p->off = off;
+    if (!c.is_beside && !may_cross) p->off = INFINITY;
+}
+
 static imp_model distance_of_kind(const round_profile *p, const imp_model m[3])
 {
     const imp_model w[3] = {m[0], m[1], imp_shift(m[2], -p->height)};

@@ -34,6 +34,11 @@ typedef struct round_profile {
  * the `count` control points, at most 21; weights, positive, may be NULL. Not kept. */
 round_profile round_profile_of(const double *points, const double *weights, size_t count);
 
+/* Adds another rational Bezier curve, given likewise, to a profile that is not ROUND_NONE: raises
+ * `off` to what that curve is off by. */
+void round_profile_widen(round_profile *p, const double *points, const double *weights,
+                         size_t count);
+
 /* Returns the distance of points m (imp_surface_type.distance), beside the point r = z = 0;
  * imp_unbounded of ROUND_NONE. */
 imp_model round_profile_distance(const round_profile *p, const imp_model m[3]);

@@ -253,13 +253,14 @@ static imp_status extrusion_distance(const void *self, const imp_model point[4],
                                      imp_model *distance)
 {
     const piece *p = self;
-    return p->curved != NULL ? IMP_STATUS_UNBOUNDED : flat_gap_distance(p, point, distance);
+    return p->curved != NULL ? nurbs_distance(p->curved, point, distance)
+                             : flat_gap_distance(p, point, distance);
 }
 
 static imp_status extrusion_symmetry(const void *self, imp_symmetry *symmetry)
 {
     const piece *p = self;
-    return p->curved != NULL ? IMP_STATUS_UNBOUNDED : facet_symmetry(p, symmetry);
+    return p->curved != NULL ? nurbs_symmetry(p->curved, symmetry) : facet_symmetry(p, symmetry);
 }
 
 static imp_status extrusion_write_formula(const void *self, const imp_text_sink *to)

@@ -134,6 +134,8 @@ static const imp_surface_type nurbs = {
     IMP_SURFACE_FIELDS_OF("nurbs", nurbs, nurbs, nurbs_destroy),
     .renew = nurbs_refill,
     .net = nurbs_net,
+    .distance = nurbs_distance,
+    .symmetry = nurbs_symmetry,
     .write_formula = nurbs_write_formula,
     .summary = "NURBS surface of any degree up to 20, rational or not, moving linearly",
     .equation =

@@ -111,6 +111,7 @@ in_parts() {
 }
 
 @test "a run goes on from the boxes that another left, to the same answer and boxes" {
+    without_sanitizers
     arms >arms.json
     in_parts '--max-boxes 6' "$IMPINGE" solve arms.json --gamma 0.09
     in_parts '--max-boxes 12' "$IMPINGE" clearance arms.json --require 0.095
@@ -376,6 +377,7 @@ three() {
 }
 
 @test "what follows time stands still while a parameter is swept" {
+    without_sanitizers
     arms 2.9 '0,0],[-0.3,0,0' >arms.json # 0.3 apart at time 0, in contact at 1
     run -0 --separate-stderr "$IMPINGE" view arms.json --sweep a --at b=0 -o swept.svg
     grep -q 'nearest: a = ' swept.svg

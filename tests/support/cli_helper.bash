@@ -31,6 +31,10 @@ has_sanitizers() {
     nm -D "$top_builddir/.libs/libimpinge.so" | grep -q __asan_init
 }
 
+# For long searches, which take five times as long with sanitizers. Suites in C, or shorter tests of the same
+# suite, run their code with sanitizers.
+without_sanitizers() { ! has_sanitizers || skip 'a long search, whose code shorter tests run with sanitizers'; }
+
 # scaled NUMBER: by IMPINGE_TEST_MULTIPLIER, as suites of Check scale how often they draw.
 scaled() { awk -v n="$1" -v by="${IMPINGE_TEST_MULTIPLIER-1}" 'BEGIN { print n * by }'; }
 

@@ -98,6 +98,36 @@
     "," W_ "],[" W_ "," W_ "],[" W_ "," R_ "],[" W "," R_ "],[" W "," W_ "],[" R "," W_ "],[" R    \
     "," W "]"
 
+/* A whole turn of four rational arcs: their control points at one height, and weights. */
+#define ARCS                                                                                       \
+    "'degree':2,'knots':[0,0,0,1,1,2,2,3,3,4,4,4],'weights':[1,0.70710678118654757,1,0."           \
+    "70710678118654757,1,0.70710678118654757,1,0.70710678118654757,1]"
+#define RING_OF_ARCS(R, R_)                                                                        \
+    "[" R ",0],[" R "," R "],[0," R "],[" R_ "," R "],[" R_ ",0],[" R_ "," R_ "],[0," R_ "],[" R   \
+    "," R_ "],[" R ",0]"
+#define ARC_ROW(X, Y, Z) "[" X "," Y ",-" Z "],[" X "," Y "," Z "]"
+#define NURBS_CYLINDER(R, R_, Z)                                                                   \
+    "{'type':'nurbs','degree':[2,1],'knots_u':[0,0,0,1,1,2,2,3,3,4,4,4],'knots_v':[0,0,1,1],"      \
+    "'points':[" ARC_ROW(R, "0", Z) "," ARC_ROW(R, R, Z) "," ARC_ROW("0", R, Z) "," ARC_ROW(       \
+        R_, R,                                                                                     \
+        Z) "," ARC_ROW(R_, "0",                                                                    \
+                       Z) "," ARC_ROW(R_, R_,                                                      \
+                                      Z) "," ARC_ROW("0", R_,                                      \
+                                                     Z) "," ARC_ROW(R, R_,                         \
+                                                                    Z) "," ARC_ROW(R, "0",         \
+                                                                                   Z) "],'"        \
+                                                                                      "weights':[" \
+                                                                                      "1,"         \
+                                                                                      "1," CORNER  \
+                                                                                      ",1,"        \
+                                                                                      "1," CORNER  \
+                                                                                      ",1,"        \
+                                                                                      "1," CORNER  \
+                                                                                      ",1,"        \
+                                                                                      "1," CORNER  \
+                                                                                      ",1,1]}"
+#define CORNER "0.70710678118654757,0.70710678118654757"
+
 #define FIVE "12346"
 
 /* --- Families --------------------------------------------------------------------------------- */
@@ -187,6 +217,17 @@ const everyday_family everyday_families[] = {
      TURNED_ARC("[1,-0.2],[0.8,-0.2],[0.8,0]") "," TURNED_ARC("[1,0.2],[0.8,0.2],[0.8,0]"), "",
      SPHERE("~0.2", "1,0,0"), TURN_AT("1,0,0", "5", "1,0,0") "," TURN(Z_AXIS, "4"), BOND_NONE, 0,
      false, FIVE, 100, "", ""},
+    /* NURBS that are round */
+    {"shaft of NURBS that turns in a bore of NURBS", NURBS_CYLINDER("1", "-1", "1"), "",
+     NURBS_CYLINDER("~1", "@-1", "0.5"), TURN(Z_AXIS, "3"), BOND_NONE, 0, false, "123", 200, "",
+     ""},
+    {"can that turns in a bore of NURBS", NURBS_CYLINDER("1", "-1", "1"), PLACE,
+     CAN("~1", "1", "0,0,0"), TURN(Z_AXIS, "3") "," SAME_PLACE, BOND_NONE, 0, false, FIVE, 10, "",
+     ""},
+    {"can that slides in an extruded bore of arcs",
+     "{'type':'extrusion','vector':[0,0,2],'profile':[" RING_OF_ARCS("1", "-1") "]," ARCS "}", "",
+     CAN("~1", "1", "0,0,1"), TURN(Z_AXIS, "5") "," MOVE("0,0,0.2"), BOND_NONE, 0, false, FIVE, 10,
+     "", ""},
     /* meshes */
     {"shaft of 64 sides in a round bore", CYLINDER("1", "2", "0,0,0"), "",
      LATHE("p 64 ~1:-0.75 ~1:0.75"), TURN(Z_AXIS, "3"), BOND_NONE, 0, false, "1234", 20000, "", ""},
