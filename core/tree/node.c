@@ -14,7 +14,7 @@
 /* --- Memory ----------------------------------------------------------------------------------- */
 
 /* Halves are mostly made in pairs. Most trees of large scenes have some ten nodes: these get blocks
- * of one after the first, so that none stays unused. */
+ * of one after the first, which leaves little unused. */
 static const arena_growth node_growth = {2 * sizeof(node), sizeof(node), 10, 64 * sizeof(node)};
 
 /* Reserves memory for a node, which is then published or given back. NULL: no memory. */
