@@ -143,6 +143,58 @@ START_TEST(corners_meet_where_they_are_in_one_plane_and_mostly_with_one_pair)
 }
 END_TEST
 
+/* Newton steps lead to a later meeting than the first, which only the proof tells. */
+static const struct {
+    bool edges;
+    corners c;
+} LATER[] = {
+    {false,
+     {{{-0.938, -0.258, 2.367},
+       {-0.705, -0.595, -0.897},
+       {0.232, 0.713, 0.918},
+       {0.223, -0.405, -0.756}},
+      {{4.613, 7.171, -9.219},
+       {-1.668, 9.128, 6.513},
+       {-6.638, 0.861, 4.593},
+       {8.809, 8.828, 2.180}}}},
+    {true,
+     {{{0.501, -0.221, 1.713},
+       {0.935, -0.054, 1.097},
+       {-0.707, 0.534, -0.872},
+       {0.172, -0.169, 0.828}},
+      {{2.476, 1.158, -3.223},
+       {-1.229, 3.999, -5.828},
+       {1.393, -1.127, -0.645},
+       {5.686, 4.420, -0.169}}}},
+    {true,
+     {{{-0.587, 0.355, 1.747},
+       {0.766, 0.312, 1.662},
+       {-0.895, -0.580, 0.087},
+       {0.741, 0.910, 0.957}},
+      {{-1.865, -2.570, 0.573},
+       {-3.462, 1.568, -8.507},
+       {-5.881, 3.265, 3.695},
+       {-2.556, -4.326, 3.460}}}},
+};
+
+START_TEST(a_meeting_that_is_not_the_first_is_refused)
+{
+    imp_registry *registry = query_registry();
+    for (size_t k = 0; k < sizeof LATER / sizeof *LATER; ++k) {
+        const double expected = first_meeting(&LATER[k].c, LATER[k].edges);
+        imp_scene *scene = build(registry, &LATER[k].c, LATER[k].edges);
+        const imp_options options = imp_options_default(scene);
+        imp_result r = {.struct_size = sizeof r};
+        ck_assert_int_eq(imp_scene_solve(scene, &options, &r, NULL), IMP_SUCCESS);
+        ck_assert_int_eq(r.verdict, IMP_VERDICT_CONTACT);
+        ck_assert_msg(fabs(r.t - expected) < SOON, "scene %zu: contact at %.17g, expected at %.17g",
+                      k, r.t, expected);
+        imp_scene_free(scene);
+    }
+    imp_registry_free(registry);
+}
+END_TEST
+
 START_TEST(a_meeting_is_refined_like_a_new_query)
 {
     uint64_t state = suite_seed();
@@ -172,4 +224,4 @@ START_TEST(a_meeting_is_refined_like_a_new_query)
 END_TEST
 
 SUITE_MAIN("meetings", corners_meet_where_they_are_in_one_plane_and_mostly_with_one_pair,
-           a_meeting_is_refined_like_a_new_query)
+           a_meeting_that_is_not_the_first_is_refused, a_meeting_is_refined_like_a_new_query)
