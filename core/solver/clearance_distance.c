@@ -16,6 +16,7 @@ imp_code clearance_begin_distance(clearance_search *c, const clearance_group *gr
         .tolerance = c->asked.tolerance,
         .gamma = required > 0 && required < c->options.gamma ? required : c->options.gamma,
         .required = required,
+        .max_pairs = c->options.max_pairs,
         .relaxed = clearance_searched(c),
         .slip = c->list->slip,
         .candidates = c->list->pairs,

@@ -18,6 +18,7 @@ void clearance_begin_violation(clearance_search *c)
                             .gamma_clear = clearance_searched(c),
                             .window = {answer->t_start, answer->t_end},
                             .baseline = IMP_BASELINE_NONE,
+                            .max_pairs = c->options.max_pairs,
                             .candidate_pairs = c->list->pairs,
                             .stats = c->stats,
                             .heap = {.store = scene_store(c->scene)},

@@ -54,6 +54,7 @@ typedef struct impact {
     double gamma, gamma_clear;
     time_window window;              /* the times that are searched */
     uint32_t baseline;               /* of imp_options; 0: by Taylor models */
+    uint64_t max_pairs;              /* of imp_options */
     candidate_pair *candidate_pairs; /* the caller's */
     size_t candidate_pair_count;     /* 0: each pair's roots are tested when added */
     imp_stats *stats; /* the caller's; its bytes are those of the trees, without the heap */
@@ -84,6 +85,10 @@ static inline trial_rate *impact_turning(const impact *im, const pair *p)
 /* Counts a test, and pushes the pair unless its nodes stay apart. Precondition: the heap has
  * capacity. */
 void impact_push(impact *im, pair_test *t);
+
+/* Pushes a pair that is not tested, since max_pairs are: it is tested if it is ever popped.
+ * Precondition: as for impact_push. */
+void impact_push_untested(impact *im, const pair *p);
 
 /* Keeps the least gap of all witnesses. */
 void impact_note_gap(impact *im, const witness *seen);

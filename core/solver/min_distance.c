@@ -118,12 +118,16 @@ imp_code min_distance_begin(min_distance *m, size_t first, size_t count, imp_err
 /* Lemma. A pair's first key bounds the distance of its points over its window from below, or is
  * `enough` or more; at times cut off the window the distance is at least `enough` of that moment,
  * which is no less than now, since upper only falls. A child's points and times are its parent's,
- * so the parent's bound holds too. */
+ * so the parent's bound holds too, and is all that is known where max_pairs lets no pair be tested
+ * any more. */
 static void test_and_push(min_distance *m, pair p)
 {
     approach near = {0, p.moment};
-    m->stats->pairs += 1;
-    const bool some = separation_approach(p.a, p.b, enough(m), &p.window, &p.axis, &near);
+    bool some = true;
+    if (!pairs_are_spent(m->stats, m->max_pairs)) {
+        m->stats->pairs += 1;
+        some = separation_approach(p.a, p.b, enough(m), &p.window, &p.axis, &near);
+    }
     pair_note_test(m->proof, &p, some);
     if (!some) return;
     p.moment = near.moment < p.window.lo   ? p.window.lo

@@ -18,10 +18,11 @@
 typedef struct min_distance {
     /* set by the caller; the rest begins as 0, and min_distance_clear frees */
     time_window window;
-    double tolerance; /* the search ends when the bracket is as narrow as this part of upper */
-    double gamma;     /* or when upper is no more than this; length */
-    double required;  /* if > 0, it does not end before upper <= required or lower >= relaxed */
-    double relaxed;   /* slightly below `required`; length */
+    double tolerance;   /* the search ends when the bracket is as narrow as this part of upper */
+    double gamma;       /* or when upper is no more than this; length */
+    uint64_t max_pairs; /* of imp_options */
+    double required;    /* if > 0, it does not end before upper <= required or lower >= relaxed */
+    double relaxed;     /* slightly below `required`; length */
     double slip; /* distances of candidates and of their surfaces differ by at most this; length */
     candidate_pair *candidates; /* the caller's */
     imp_stats *stats;           /* the caller's; bytes: of the trees, without the heap */

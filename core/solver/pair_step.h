@@ -48,6 +48,12 @@ static inline bool pair_is_left_out(const pair *p, const candidate_pair *both)
     return candidate_pair_leaves_out(both, p->a, p->b);
 }
 
+/* Whether no more pairs may be tested. `most`: max_pairs of imp_options. */
+static inline bool pairs_are_spent(const imp_stats *stats, uint64_t most)
+{
+    return most > 0 && stats->pairs >= most;
+}
+
 /* Pushes the pair; among pairs of the same first key, nearer centres at time t come first. Counts
  * it in *serial and `stats`. Precondition: the heap has capacity. */
 void pair_push(pair_heap *heap, pair *p, double t, uint64_t *serial, imp_stats *stats);

@@ -112,6 +112,7 @@ static imp_query *fresh_query(const imp_query *whole, imp_error *error)
     query->impact = (impact){.gamma = whole->impact.gamma,
                              .window = whole->impact.window,
                              .baseline = whole->impact.baseline,
+                             .max_pairs = whole->impact.max_pairs,
                              .spread = whole->impact.spread,
                              .stats = &query->stats,
                              .t_lower = whole->options.t_start};

@@ -6,6 +6,7 @@
 
 #include "core/base/active_callback.h"
 #include "core/common/clock.h"
+#include "core/solver/pair_step.h"
 #include "core/solver/query_internal.h"
 
 /* The limits of a query, and the progress that it reports. */
@@ -27,7 +28,7 @@ imp_reason query_exhausted_limit(imp_query *query, double seconds)
     if (atomic_load_explicit(&query->cancelled, memory_order_relaxed) &&
         atomic_exchange(&query->cancelled, false))
         return IMP_REASON_CANCELLED;
-    if (options->max_pairs > 0 && query->stats.pairs >= options->max_pairs) return IMP_REASON_PAIRS;
+    if (pairs_are_spent(&query->stats, options->max_pairs)) return IMP_REASON_PAIRS;
     if (options->max_seconds > 0 && seconds >= options->max_seconds) return IMP_REASON_SECONDS;
     if (options->max_bytes > 0 && query->peak_bytes > options->max_bytes) return IMP_REASON_MEMORY;
     return IMP_REASON_NONE;

@@ -29,6 +29,17 @@ static imp_code push_cut(impact *im, const pair *p, imp_error *error)
     return code;
 }
 
+/* Lemma. A half's points and times are the pair's, so that its window holds for the half, too: one
+ * that is not tested loses nothing. */
+static imp_code push_half(impact *im, const pair *half, bool is_cut, imp_error *error)
+{
+    if (pairs_are_spent(im->stats, im->max_pairs)) {
+        impact_push_untested(im, half);
+        return IMP_SUCCESS;
+    }
+    return is_cut ? push_cut(im, half, error) : test_and_push(im, half, error);
+}
+
 imp_code split_pair(impact *im, const pair *p, cut c, const net_halves *halves, impact_state *state,
                     imp_error *error)
 {
@@ -45,8 +56,7 @@ imp_code split_pair(impact *im, const pair *p, cut c, const net_halves *halves, 
             code = cut_take(&c, half, impact_candidates(im, p), &child, &some, im->stats, error);
         some = some && !pair_is_left_out(&child, impact_candidates(im, p));
         if (code == IMP_SUCCESS && some) pair_note_cut(im->proof, &child, &c, half);
-        if (code == IMP_SUCCESS && some)
-            code = is_cut ? push_cut(im, &child, error) : test_and_push(im, &child, error);
+        if (code == IMP_SUCCESS && some) code = push_half(im, &child, is_cut, error);
         if (code == IMP_ERROR_PLUGIN) return code;
         if (code != IMP_SUCCESS) *state = IMPACT_NO_MEMORY;
     }

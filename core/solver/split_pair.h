@@ -14,8 +14,8 @@ static inline candidate_pair *impact_candidates(const impact *im, const pair *p)
     return &im->candidate_pairs[p->candidate_pair];
 }
 
-/* Splits the pair and pushes its halves. `halves`: the heights of its nodes along its axis; NULL:
- * not known. */
+/* Splits the pair and pushes its halves, of which no more are tested than max_pairs lets. `halves`:
+ * the heights of its nodes along its axis; NULL: not known. */
 imp_code split_pair(impact *im, const pair *p, cut c, const net_halves *halves, impact_state *state,
                     imp_error *error);
 

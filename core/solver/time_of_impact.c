@@ -12,6 +12,7 @@
 #include "core/solver/expand_pair.h"
 #include "core/solver/pair_meeting.h"
 #include "core/solver/pair_note.h"
+#include "core/solver/pair_step.h"
 
 /* Reserve heap space for half of the remaining candidate pairs, but at most this many: most are
  * pushed. */
@@ -102,7 +103,8 @@ static bool recut_after_refining(impact *im, pair *p)
     const time_window *whole = roots_of(im, p);
     p->window = window_common(p->window, *whole);
     if (p->window.lo > p->window.hi) return false;
-    if (p->serial < im->refined && !(whole->lo > -INFINITY)) {
+    if (p->serial < im->refined && !(whole->lo > -INFINITY) &&
+        !pairs_are_spent(im->stats, im->max_pairs)) {
         im->stats->pairs += 1;
         if (!pair_test_fully(im, p)) return false;
         p->serial = im->serial++;

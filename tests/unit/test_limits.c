@@ -162,6 +162,99 @@ START_TEST(a_limited_query_answers_as_if_it_had_none_once_the_limit_is_far)
 }
 END_TEST
 
+/* --- Pairs, to the last one ------------------------------------------------------------------- */
+
+enum { MOST = 50 };
+
+/* Balls that meet, or pass each other closely. */
+static imp_scene *passing(bool meet, ball both[2])
+{
+    both[0] = (ball){.radius = 1};
+    both[1] = (ball){.radius = 1, .centre = {3, meet ? 1.9 : 2.03, 0.3}, .velocity = {-4, 0, 0}};
+    imp_scene *scene = spheres_scene(&ball_type, &both[0], &ball_type, &both[1]);
+    ck_assert_ptr_nonnull(scene);
+    return scene;
+}
+
+static imp_result solve_and_refine(imp_scene *scene, uint64_t most)
+{
+    imp_options options = imp_options_default(scene);
+    options.max_pairs = most;
+    options.gamma = 1e-2;
+    imp_query *query = begin(scene, options);
+    const imp_result coarse = step(query, 0);
+    ck_assert(most == 0 || coarse.stats.pairs <= most);
+    if (coarse.verdict == IMP_VERDICT_CONTACT)
+        ck_assert_int_eq(imp_query_refine(query, 1e-6, -1, NULL), IMP_SUCCESS);
+    const imp_result r = step(query, 0);
+    imp_query_free(query);
+    return r;
+}
+
+static imp_clearance measure(imp_scene *scene, double required, uint64_t most)
+{
+    imp_clearance answer = {.struct_size = sizeof answer};
+    imp_options options = imp_options_default(scene);
+    imp_clearance_options asked = imp_clearance_options_default();
+    imp_error error = {IMP_SUCCESS, ""};
+    options.max_pairs = most;
+    asked.required = required;
+    imp_query *query = imp_clearance_new(scene, &options, &asked, &error);
+    ck_assert_msg(query != NULL, "%s", error.text);
+    step(query, 0);
+    ck_assert_int_eq(imp_clearance_get(query, 0, &answer, &error), IMP_SUCCESS);
+    imp_query_free(query);
+    return answer;
+}
+
+/* A limit of `most` pairs ends with exactly as many, and loses nothing. */
+static void check_solved(imp_scene *scene, const imp_result *all, uint64_t most)
+{
+    const imp_result r = solve_and_refine(scene, most);
+    ck_assert_uint_le(r.stats.pairs, most);
+    if (r.reason == IMP_REASON_PAIRS) {
+        ck_assert(r.stats.pairs == most && r.verdict == IMP_VERDICT_UNDECIDED);
+        ck_assert(r.t_lower <= (all->verdict == IMP_VERDICT_CONTACT ? all->t : INFINITY));
+    } else {
+        ck_assert(r.verdict == all->verdict && r.stats.pairs == all->stats.pairs);
+        ck_assert(r.verdict != IMP_VERDICT_CONTACT || (r.t == all->t && r.gap == all->gap));
+    }
+}
+
+static void check_measured(imp_scene *scene, double required, const imp_clearance *all,
+                           uint64_t most)
+{
+    const imp_clearance r = measure(scene, required, most);
+    ck_assert_uint_le(r.stats.pairs, most);
+    ck_assert(r.lower <= all->upper && r.upper >= all->lower);
+    if (r.reason == IMP_REASON_PAIRS)
+        ck_assert_uint_eq(r.stats.pairs, most);
+    else
+        ck_assert(r.lower == all->lower && r.upper == all->upper && r.t == all->t &&
+                  r.stats.pairs == all->stats.pairs);
+}
+
+START_TEST(no_more_pairs_are_tested_than_max_pairs)
+{
+    static const double required[] = {0, 0.029};
+    for (int meet = 0; meet < 2; ++meet) {
+        ball both[2];
+        imp_scene *scene = passing(meet, both);
+        const imp_result solved = solve_and_refine(scene, 0);
+        ck_assert_int_eq(solved.verdict, meet ? IMP_VERDICT_CONTACT : IMP_VERDICT_CLEAR);
+        for (uint64_t most = 1; most <= MOST; ++most) check_solved(scene, &solved, most);
+        for (int k = 0; k < 2; ++k) {
+            const imp_clearance measured = measure(scene, required[k], 0);
+            for (uint64_t most = 1; most <= MOST; ++most)
+                check_measured(scene, required[k], &measured, most);
+        }
+        imp_scene_free(scene);
+    }
+}
+END_TEST
+
+/* --- Steps and cancellations ------------------------------------------------------------------ */
+
 START_TEST(a_step_of_as_many_pairs_as_there_are_numbers_goes_to_the_end)
 {
     static const ball a = {.radius = 1},
@@ -244,5 +337,6 @@ SUITE_MAIN("limits", a_limit_of_bytes_comes_before_an_error_whatever_is_made_ahe
            a_limit_of_bytes_counts_the_scene,
            a_query_is_cancelled_while_its_trees_are_made_and_may_go_on,
            a_limited_query_answers_as_if_it_had_none_once_the_limit_is_far,
+           no_more_pairs_are_tested_than_max_pairs,
            a_step_of_as_many_pairs_as_there_are_numbers_goes_to_the_end,
            each_cancellation_ends_one_step)
