@@ -180,11 +180,12 @@ static bool find_axis(const linear_state *s, vec3 *axis)
     return size > 0 && size < INFINITY;
 }
 
-/* From the root, steps lead back to where the gap is as wanted; the axis turns by little. */
+/* From the root, or from where it nearly is so, steps lead to where the gap is as wanted; the axis
+ * turns by little. */
 enum { STEPS_BACK = 2 };
 
 bool linear_contact_find(const node *a, const node *b, const time_window *window, double gap,
-                         linear_contact *found)
+                         const linear_contact *near, linear_contact *found)
 {
     const double length = window->hi - window->lo;
     linear_form f;
@@ -192,8 +193,11 @@ bool linear_contact_find(const node *a, const node *b, const time_window *window
     int at[2];
     double size;
     take_difference((const node *const[2]){a, b}, window->lo, &f, at);
+    if (near != NULL)
+        s = (linear_state){.x = {near->y[at[0]], near->y[at[1]]}, .tau = near->t - window->lo};
     state_at(&f, &s);
-    if (!(length > 0) || !find_root(&f, length, &s) || !is_inside(&s, length)) return false;
+    if (!(length > 0)) return false;
+    if (near == NULL && !(find_root(&f, length, &s) && is_inside(&s, length))) return false;
     for (int k = 0; k < STEPS_BACK; ++k)
         if (!find_axis(&s, &found->axis) ||
             !move(&f, length, vec3_scale(found->axis, gap), &s, &size))

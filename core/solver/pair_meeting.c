@@ -21,11 +21,12 @@ static imp_code find(const impact *im, pair_test *t, linear_contact *met, bool *
 {
     const pair *p = &t->p;
     const double gap = im->gamma_clear + ABOVE_CLEAR * (im->gamma - im->gamma_clear);
-    *found = linear_contact_find(p->a, p->b, &p->window, gap, met);
+    *found = linear_contact_find(p->a, p->b, &p->window, gap, NULL, met);
     if (!*found || !strategy_wants_nets(p->a, p->b)) return IMP_SUCCESS;
     const bool had = node_net_is_asked(p->a) && node_net_is_asked(p->b);
     const imp_code code = pair_test_ask_for_nets(im, p, &t->bytes, error);
-    if (code == IMP_SUCCESS && !had) *found = linear_contact_find(p->a, p->b, &p->window, gap, met);
+    if (code == IMP_SUCCESS && !had)
+        *found = linear_contact_find(p->a, p->b, &p->window, gap, met, met);
     return code;
 }
 
