@@ -332,7 +332,7 @@ tools_libverify_la_SOURCES = \
     tools/verify/aim.c tools/verify/aim.h \
     tools/verify/apart.c tools/verify/apart.h \
     tools/verify/apart_axis.c tools/verify/apart_internal.h \
-    tools/verify/apart_cell.c \
+    tools/verify/apart_cell.c tools/verify/apart_guess.c \
     tools/verify/elaborate.c tools/verify/elaborate.h \
     tools/verify/enclose.c tools/verify/enclose.h \
     tools/verify/input.c tools/verify/input.h \

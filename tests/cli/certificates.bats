@@ -459,3 +459,12 @@ surface subdivision: holds assuming subdivision' ]
         [ "${BASH_REMATCH[1]}" -lt 400 ]
     done
 }
+
+@test "a box that slides or turns on the face of another is parted by the face's normal" {
+    local table='box size=6,1,1 center=0,-1.5,0'
+    for moves in 'translate velocity=1,0,0' 'rotate axis=0,1,0 rate=2'; do
+        run -0 "$IMPINGE" clearance "$table" "box size=1,1.9998,1 center=0.9,0,0 ! $moves" --proof face.proof
+        run -0 verify face.proof --quiet --effort 20
+        [ "$output" = holds ]
+    done
+}

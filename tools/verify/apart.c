@@ -17,63 +17,6 @@ static bool is_axis(const double n[3])
 
 /* --- A cell ----------------------------------------------------------------------------------- */
 
-/* The axes from A to B that are tried after the hint: the direction of the centres, and the normals
- * of single pieces. */
-enum { AXES = 3 };
-
-/* The box around the middles of some pieces. */
-typedef struct middles {
-    double lo[3], hi[3], normal[3];
-} middles;
-
-/* du x dv of a piece, from the means of the corners of each edge. */
-static void take_normal(double corner[8][3], double n[3])
-{
-    double u[3] = {0, 0, 0}, v[3] = {0, 0, 0};
-    for (int k = 0; k < 8; ++k)
-        for (int i = 0; i < 3; ++i) {
-            u[i] += (k & 1) != 0 ? corner[k][i] : -corner[k][i];
-            v[i] += (k & 2) != 0 ? corner[k][i] : -corner[k][i];
-        }
-    for (int i = 0; i < 3; ++i) {
-        const int j = (i + 1) % 3, l = (i + 2) % 3;
-        n[i] = u[j] * v[l] - u[l] * v[j];
-    }
-}
-
-static void take_middles(prover *p, const cell *c, int side, middles *m)
-{
-    *m = (middles){{INFINITY, INFINITY, INFINITY}, {-INFINITY, -INFINITY, -INFINITY}, {0, 0, 0}};
-    const size_t count = c->count[side], step = count > 8 ? count / 8 : 1;
-    for (size_t k = 0; k < count; k += step) {
-        place of;
-        form x;
-        split unused;
-        double corner[8][3], mid[3];
-        const box3 where = cell_area(p, c, side, k, &of);
-        if (look_net(p->known, &of, &where, &x, &unused) != ENCLOSED || x.net == NULL) continue;
-        net_points(&x, corner, mid);
-        for (int i = 0; i < 3; ++i) {
-            m->lo[i] = proof_smaller(m->lo[i], mid[i]);
-            m->hi[i] = proof_larger(m->hi[i], mid[i]);
-        }
-        if (count == 1) take_normal(corner, m->normal);
-    }
-}
-
-static void find_axes(prover *p, const cell *c, double n[AXES][3])
-{
-    middles m[2];
-    for (int side = 0; side < 2; ++side) take_middles(p, c, side, &m[side]);
-    for (int i = 0; i < 3; ++i)
-        n[0][i] = 0.5 * m[1].lo[i] + 0.5 * m[1].hi[i] - (0.5 * m[0].lo[i] + 0.5 * m[0].hi[i]);
-    for (int side = 0; side < 2; ++side) {
-        double *to = n[1 + side], sign = 0;
-        for (int i = 0; i < 3; ++i) sign += m[side].normal[i] * n[0][i];
-        for (int i = 0; i < 3; ++i) to[i] = sign < 0 ? -m[side].normal[i] : m[side].normal[i];
-    }
-}
-
 /* The clock whose values count for more than `most`; false: none does. */
 static bool widest_clock(const prover *p, const apart_trial *tried, double most, cut *by)
 {
@@ -205,7 +148,7 @@ static apart_outcome test(prover *p, const cell *c, cut *by)
         if (o != DIVIDE) return o;
         if (tried.left > -INFINITY) best = 0, some = divide_cell(p, c, &tried, by);
     }
-    find_axes(p, c, n);
+    apart_find_axes(p, c, n);
     for (int m = 0; m < AXES && best < INFINITY; ++m) {
         if (m == 0 && best == -INFINITY)
             some = false; /* of the smallest cells, this axis is right */

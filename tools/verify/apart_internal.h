@@ -6,7 +6,7 @@
 #include "tools/verify/apart.h"
 
 /* What prove_apart consists of: apart_cell.c has the cells, apart_axis.c tests one axis or centre,
- * apart.c chooses axes and divides. */
+ * apart_guess.c guesses axes, apart.c tries them and divides. */
 
 typedef enum apart_outcome { APART, DIVIDE, STUCK } apart_outcome;
 
@@ -29,6 +29,11 @@ box3 cell_area(const prover *p, const cell *c, int side, size_t k, place *of);
 
 /* Keeps the cell and why it is not proved; returns STUCK. */
 apart_outcome apart_fail(prover *p, const cell *c, double found, const char *why);
+
+/* The axes from A to B that are tried after the hint: the direction of the centres, and a normal of
+ * either side. They are guesses, in doubles; 0: none. */
+enum { AXES = 3 };
+void apart_find_axes(prover *p, const cell *c, double n[AXES][3]);
 
 /* Tests one axis, which need not be a unit vector; what is known of it then is in *tried. */
 apart_outcome apart_by_axis(prover *p, const cell *c, const double n[3], apart_trial *tried);
