@@ -131,6 +131,13 @@ static apart_outcome try_axis(prover *p, const cell *c, const double n[3], doubl
     return o;
 }
 
+/* Tests the normal of a face; where it does not part the cell, it does not choose the cut. */
+static apart_outcome apart_by_face(prover *p, const cell *c, const double n[3])
+{
+    apart_trial unused;
+    return is_axis(n) ? apart_by_axis(p, c, n, &unused) : DIVIDE;
+}
+
 static apart_outcome test(prover *p, const cell *c, cut *by)
 {
     const bool is_single = c->count[0] == 1 && c->count[1] == 1;
@@ -152,7 +159,8 @@ static apart_outcome test(prover *p, const cell *c, cut *by)
     for (int m = 0; m < AXES && best < INFINITY; ++m) {
         if (m == 0 && best == -INFINITY)
             some = false; /* of the smallest cells, this axis is right */
-        o = try_axis(p, c, n[m], &best, by, &some);
+        const bool is_face = m > 0 && c->count[m - 1] > 1;
+        o = is_face ? apart_by_face(p, c, n[m]) : try_axis(p, c, n[m], &best, by, &some);
         if (o != DIVIDE) return o;
     }
     if (!some) some = divide_cell(p, c, &tried, by);

@@ -76,9 +76,9 @@ static double room_along(seen side[2], const double n[3])
 /* Chooses the normal of a piece, of a side of several such as a box, that seems to part the sides:
  * of the face on which a part slides or turns. The direction of the centres misses it by more than
  * the gap leaves. 0: none does. */
-static void choose_face(seen side[2], int own, double to[3])
+static void choose_face(const prover *p, seen side[2], int own, double to[3])
 {
-    double most = 0, n[3];
+    double most = p->apart, n[3];
     memset(to, 0, 3 * sizeof *to);
     for (int k = 0; k < side[own].count && side[own].is_all; ++k) {
         take_normal(side[own].corner[k], n);
@@ -103,7 +103,7 @@ void apart_find_axes(prover *p, const cell *c, double n[AXES][3])
         double *to = n[1 + s];
         memset(to, 0, sizeof n[0]);
         if (c->count[s] > 1) {
-            choose_face(side, s, to);
+            choose_face(p, side, s, to);
         } else if (side[s].count == 1) {
             take_normal(side[s].corner[0], to);
             const double sign = dot(to, n[0]) < 0 ? -1 : 1;
