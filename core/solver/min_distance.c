@@ -156,15 +156,25 @@ static imp_code lower_in_time(min_distance *m, const node *const nodes[2], doubl
     return code;
 }
 
-/* Lets the witness at p->moment of two pieces walk to their neighbours. */
+/* Lets the witness at p->moment of two pieces walk to their neighbours. A walk may end where only
+ * a step of both sides would lead nearer: one that ends too far from the pair's bound to prune the
+ * pair is tried once more from its start, with the other side's pieces first. */
 static imp_code walk_on(min_distance *m, const pair *p, pair *single, witness *seen,
                         imp_error *error)
 {
-    piece_walk w = {*single, *seen, p->moment};
-    const imp_code code = piece_walk_on(&w, p, &m->candidates[p->candidate_pair], m->stats, error);
-    *single = w.single;
-    *seen = w.seen;
-    return code;
+    const candidate_pair *both = &m->candidates[p->candidate_pair];
+    const piece_walk start = {*single, *seen, p->moment, 0};
+    for (int first = 0; first < 2; ++first) {
+        piece_walk w = start;
+        w.first = first;
+        if (first > 0 && (1 - m->tolerance) * seen->gap_upper <= p->key[0]) return IMP_SUCCESS;
+        const imp_code code = piece_walk_on(&w, p, both, m->stats, error);
+        if (code != IMP_SUCCESS) return code;
+        if (first > 0 && !(w.seen.gap_upper < seen->gap_upper)) return IMP_SUCCESS;
+        *single = w.single;
+        *seen = w.seen;
+    }
+    return IMP_SUCCESS;
 }
 
 /* Among the pieces that the hint names, or else that are nearest. */

@@ -61,7 +61,7 @@ imp_code piece_walk_on(piece_walk *w, const pair *from, const candidate_pair *bo
     for (int k = 0; k < 2 || w->seen.gap_upper < before; ++k) {
         pair p = w->single;
         if (k % 2 == 0) before = w->seen.gap_upper;
-        g.side = k % 2;
+        g.side = (k + w->first) % 2;
         *(g.side == 0 ? &p.a : &p.b) = g.side == 0 ? from->a : from->b;
         const imp_code code = try_below(&g, &p, error);
         if (code != IMP_SUCCESS || g.tries == 0) return code;

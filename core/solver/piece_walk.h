@@ -16,6 +16,7 @@ typedef struct piece_walk {
     pair single; /* two pieces, of which `seen` is a witness at time t */
     witness seen;
     double t;
+    int first; /* the side whose pieces are tried first */
 } piece_walk;
 
 /* Walks from w->single as far as that lowers w->seen.gap_upper, within the nodes of `from`, an

@@ -47,6 +47,22 @@ END
     [[ $output == 'nearest distance 1.0000'*' between "a" and "b"'* && $output == *"never nearer than 0.999"* ]]
 }
 
+@test "a can and a box beside each other take one pair in either order" {
+    local can box
+    can='cylinder radius=0.56 height=1.4 ends=true ! translate'
+    box='box size=0.76,1,1 ! translate offset=[[1.67,1.40,-0.58],[1.15,-0.82,-0.95]]'
+    can="$can offset=[[-0.13,-0.20,-0.47],[0.41,-0.35,-1.95]]"
+    run -0 "$IMPINGE" clearance "$can" "$box" --json
+    json '.stats.pairs == 1 and .upper < 1.2363'
+    run -0 "$IMPINGE" clearance "$box" "$can" --json
+    json '.stats.pairs == 1 and .upper < 1.2363'
+    can='cylinder radius=0.69 height=0.81 ends=true ! translate'
+    box='box size=1.21,0.98,1.19 ! translate offset=[[1.57,-0.30,0.70],[0.18,1.78,1.19]]'
+    can="$can offset=[[1.45,-1.91,-0.53],[1.39,0.84,-0.86]]"
+    run -0 "$IMPINGE" clearance "$box" "$can" --json
+    json '.stats.pairs == 1 and .upper < 0.4877'
+}
+
 @test "parts that slide in each other are bracketed by a few thousand pairs" {
     shaft='cylinder radius=0.99 ! rotate rate=3'
     run -0 "$IMPINGE" clearance "$shaft" cylinder --json
