@@ -222,6 +222,7 @@ plugins_libpatch_la_SOURCES = \
     plugins/patch/patch_text.c plugins/patch/patch_text.h \
     plugins/patch/pieces.c plugins/patch/pieces.h \
     plugins/patch/rough_points.c plugins/patch/rough_points.h \
+    plugins/patch/ring_net.c plugins/patch/ring_net.h \
     plugins/patch/round_net.c plugins/patch/round_net.h \
     plugins/patch/round_profile.c plugins/patch/round_profile.h \
     plugins/patch/spline_patch.c plugins/patch/spline_patch.h \

@@ -52,6 +52,10 @@ static inline bool symmetry_is_round(const imp_symmetry *found)
  * keep each of them. IMP_STATUS_UNBOUNDED: none are known. */
 imp_status surface_closed_symmetry(const surface *s, bool of_pieces, imp_symmetry *found);
 
+/* Returns >= how far a rotation of that closed symmetry takes a point of the surface off the
+ * surface, which is in this box at one time: 0, unless it is closed but for rounding. */
+double symmetry_slack_upper(const imp_symmetry *found, const double lo[3], const double hi[3]);
+
 /* Whether all maps are rigid in exact arithmetic: rotations and shifts. */
 bool carried_exactly(const surface *s);
 

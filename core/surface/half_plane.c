@@ -101,7 +101,11 @@ bool half_plane_hold(const feature *line, double reach, double s, half_plane *h)
  * to F b, and y' = F^-1 z to b, within s of z. Points of one half plane are the nearest of their
  * circles about L: |x' - z| <= |x - F y|. So |x' - y'| <= |x - y| + 2 s. F turns about b's center
  * c_b by the angle between the axes, by at most |y - c_b| |n_a - n_b|, and shifts by how far c_b is
- * from L. Roundings: product, sum. */
+ * from L. Roundings: product, sum.
+ *
+ * Where a and b are closed but for slacks d and e, x' and z are within these of points x'' of a and
+ * F y'' of F b, so that y'' is within s + e of z, and |x'' - y''| <= |x - y| + 2 s + d + e: those
+ * points are kept that are within d, or s + e, of one of the half plane. */
 PAD_COVERS(16, 1 + 1);
 static double slip_upper(const feature *a, const feature *b, const double lo[3], const double hi[3])
 {
@@ -128,11 +132,13 @@ imp_status surface_half_plane(const surface *const s[2], const half_plane_boxes 
     }
     const int a = found[0].kind == IMP_SYMMETRY_ABOUT_LINE ? 0 : 1;
     const double way = slip_upper(&f[a], &f[!a], boxes->lo[!a], boxes->hi[!a]);
+    double slack[2];
     for (int k = 0; k < 2; ++k) {
+        slack[k] = symmetry_slack_upper(&found[k], boxes->lo[k], boxes->hi[k]);
         const double reach = feature_reach_upper(boxes->lo[k], boxes->hi[k], f[a].center);
-        const double more = k == a ? 0 : way;
+        const double more = k == a ? slack[k] : sum_upper(way, slack[k]);
         if (!half_plane_hold(&f[a], sum_upper(reach, more), more, &of[k])) return IMP_STATUS_OK;
     }
-    if (way >= 0) *slip = 2 * way;
+    if (way >= 0) *slip = sum_upper(2 * way, sum_upper(slack[0], slack[1]));
     return IMP_STATUS_OK;
 }

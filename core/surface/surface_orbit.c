@@ -12,6 +12,8 @@
 /* What a symmetry makes of motion and of whole orbits. All maps here are exact rotations and
  * shifts; other motions are not bounded. */
 
+enum { ORBITS = IMP_SYMMETRY_ORBIT_U | IMP_SYMMETRY_ORBIT_V | IMP_SYMMETRY_ORBIT_ALL };
+
 static imp_region at_moment(double moment)
 {
     return region_make((double[3]){0, 0, moment}, (double[3]){0, 0, moment});
@@ -145,7 +147,7 @@ imp_status surface_has_orbits(const surface *s, bool *has)
 {
     imp_symmetry found;
     const imp_status status = surface_symmetry(s, &found);
-    *has = status == IMP_STATUS_OK && found.is_closed > IMP_SYMMETRY_CLOSED;
+    *has = status == IMP_STATUS_OK && (found.is_closed & ORBITS) != 0;
     return status == IMP_STATUS_UNBOUNDED ? IMP_STATUS_OK : status;
 }
 
@@ -160,7 +162,7 @@ imp_status surface_orbit_slip(const surface *a, const surface *b, const double l
     if (!IMP_OFFERS(a->type, symmetry) || !carried_exactly(a) || !carried_exactly(b))
         return IMP_STATUS_OK;
     imp_status status = surface_symmetry(a, &own);
-    if (status == IMP_STATUS_OK && own.is_closed <= IMP_SYMMETRY_CLOSED) return IMP_STATUS_OK;
+    if (status == IMP_STATUS_OK && (own.is_closed & ORBITS) == 0) return IMP_STATUS_OK;
     if (status == IMP_STATUS_OK) status = surface_symmetry(b, &other);
     if (status == IMP_STATUS_OK && symmetry_is_screw(&other)) return IMP_STATUS_OK;
     if (status == IMP_STATUS_OK) status = feature_carry(a, &own, times, &of_a);

@@ -8,10 +8,17 @@
 #include "core/base/rounding.h"
 #include "core/surface/slip.h"
 
+static double slack_of(const imp_symmetry *found, const imp_model bare[3])
+{
+    const double lo[3] = {bare[0].lo, bare[1].lo, bare[2].lo},
+                 hi[3] = {bare[0].hi, bare[1].hi, bare[2].hi};
+    return symmetry_slack_upper(found, lo, hi);
+}
+
 /* Lemma. Let P(t) be the motion by the first maps of s. In the lemma of slip_upper let b be s under
  * these maps, and a be P(t0) s at rest. Then the points of P(t0) s are within `slip` of P(t) s, and
  * those of P(t) s within `slip` of P(t0) s: F, which takes one center and axis to the other, moves
- * neither farther. So P(t) s may be replaced by P(t0) s if `slip` is subtracted from the distances
+ * neither farther, and what is closed but for a slack has a point within that of each image. So P(t) s may be replaced by P(t0) s if `slip` is subtracted from the distances
  * that are proved. */
 static imp_status slip_of_first(const surface *s, size_t maps, const imp_symmetry *found,
                                 const imp_model bare[3], const imp_region *times,
@@ -35,7 +42,9 @@ static imp_status slip_of_first(const surface *s, size_t maps, const imp_symmetr
     }
     const slip_input q = {
         .a = &rest, .b = s, .b_maps = maps, .then = *then, .found = *found, .bare = there};
-    return slip_find(&q, times, slip);
+    const imp_status status = slip_find(&q, times, slip);
+    *slip = sum_upper(*slip, slack_of(found, bare));
+    return status;
 }
 
 imp_status slip_first_maps(const surface *s, bool of_pieces, const imp_model bare[3],
@@ -59,9 +68,11 @@ imp_status slip_first_maps(const surface *s, bool of_pieces, const imp_model bar
     return IMP_STATUS_OK;
 }
 
-/* Bounds in *slip how far a's motion, as seen from b, leaves b's closed symmetry. */
+/* Bounds in *slip how far a's motion, as seen from b, leaves b's closed symmetry. Lemma. Where that is
+ * closed but for a slack, a motion S of it changes no distance from b by more: S^-1 b has a point
+ * within that of each of b, and b of each of S^-1 b. */
 static imp_status slip_of_rest(const surface *const s[2], bool of_pieces, const size_t still[2],
-                               const imp_model *bare, const imp_region *times,
+                               const imp_model *const bare[2], const imp_region *times,
                                const imp_region *then, double *slip)
 {
     slip_input q = {.a = s[0],
@@ -71,10 +82,11 @@ static imp_status slip_of_rest(const surface *const s[2], bool of_pieces, const 
                     .a_still = still[0],
                     .b_still = still[1],
                     .then = *then,
-                    .bare = bare};
+                    .bare = bare[0]};
     *slip = INFINITY;
     imp_status status = surface_closed_symmetry(s[1], of_pieces, &q.found);
     if (status == IMP_STATUS_OK) status = slip_find(&q, times, slip);
+    if (status == IMP_STATUS_OK) *slip = sum_upper(*slip, slack_of(&q.found, bare[1]));
     return status == IMP_STATUS_UNBOUNDED ? IMP_STATUS_OK : status;
 }
 
@@ -131,12 +143,13 @@ imp_status surface_pair_slip(const surface *const s[2], bool of_pieces, const im
         if (status != IMP_STATUS_OK) return status;
     }
     if (still[0] < s[0]->map_count || still[1] < s[1]->map_count) {
-        imp_status status = slip_of_rest(s, of_pieces, still, bare[0], times, &then, &rest);
+        imp_status status = slip_of_rest(
+            s, of_pieces, still, (const imp_model *[]){bare[0], bare[1]}, times, &then, &rest);
         if (status == IMP_STATUS_OK && !(rest < INFINITY)) {
             const surface *const turned[2] = {s[1], s[0]};
             *asked = 0;
-            status = slip_of_rest(turned, of_pieces, (size_t[2]){still[1], still[0]}, bare[1],
-                                  times, &then, &rest);
+            status = slip_of_rest(turned, of_pieces, (size_t[2]){still[1], still[0]},
+                                  (const imp_model *[]){bare[1], bare[0]}, times, &then, &rest);
         }
         if (status != IMP_STATUS_OK) return status;
     }

@@ -4,13 +4,15 @@
 
 #include <string.h>
 
+#include "core/base/rounding.h"
 #include "core/surface/carried.h"
 
 bool symmetry_is_sane(const imp_symmetry *found)
 {
     const uint32_t of_axis = IMP_SYMMETRY_ORBIT_U | IMP_SYMMETRY_ORBIT_V | IMP_SYMMETRY_ZONE,
                    of_ball = IMP_SYMMETRY_ORBIT_ALL | IMP_SYMMETRY_ZONE,
-                   all = IMP_SYMMETRY_CLOSED | of_axis | of_ball;
+                   closed = IMP_SYMMETRY_CLOSED | IMP_SYMMETRY_ZONE,
+                   all = IMP_SYMMETRY_CLOSED | IMP_SYMMETRY_NEARLY | of_axis | of_ball;
     double most = 0;
     if (found->kind < IMP_SYMMETRY_ABOUT_POINT || found->kind > IMP_SYMMETRY_SCREW_LEFT)
         return false;
@@ -21,6 +23,10 @@ bool symmetry_is_sane(const imp_symmetry *found)
         if (fabs(found->axis[i]) > most) most = fabs(found->axis[i]);
     }
     if (found->is_closed > all) return false;
+    if ((found->is_closed & IMP_SYMMETRY_NEARLY) != 0 &&
+        ((found->is_closed & closed) == 0 ||
+         (found->is_closed & ~(closed | IMP_SYMMETRY_NEARLY)) != 0))
+        return false;
     if (!is_ball && (found->is_closed & of_ball) != 0) return false;
     if (is_ball && (found->is_closed & of_axis) == 0) return true;
     return most > AXIS_LEAST && most < AXIS_MOST;
@@ -99,16 +105,20 @@ static bool join_symmetry(imp_symmetry *all, const imp_symmetry *one)
 
 enum { PIECES_ASKED = 64 };
 
-/* Lemma. If each piece is closed under the rotations about one line, so is the surface. */
+/* Lemma. If each piece is closed under the rotations about one line, so is the surface; of pieces
+ * that are nearly closed, each is no larger than the surface. */
 static imp_status closed_together(const surface *s, imp_symmetry *found)
 {
     if (s->piece_count > PIECES_ASKED) return IMP_STATUS_UNBOUNDED;
     imp_status status = closed_alone(surface_piece(s, 0), found);
+    uint32_t nearly = found->is_closed & IMP_SYMMETRY_NEARLY;
     for (size_t k = 1; k < s->piece_count && status == IMP_STATUS_OK; ++k) {
         imp_symmetry one;
         status = closed_alone(surface_piece(s, k), &one);
         if (status == IMP_STATUS_OK && !join_symmetry(found, &one)) status = IMP_STATUS_UNBOUNDED;
+        if (status == IMP_STATUS_OK) nearly |= one.is_closed & IMP_SYMMETRY_NEARLY;
     }
+    found->is_closed |= nearly;
     return status;
 }
 
@@ -117,4 +127,15 @@ imp_status surface_closed_symmetry(const surface *s, bool of_pieces, imp_symmetr
     if (!IMP_OFFERS(s->type, symmetry) || (s->piece_count > 1 && !of_pieces))
         return IMP_STATUS_UNBOUNDED;
     return s->piece_count > 1 ? closed_together(s, found) : closed_alone(s, found);
+}
+
+/* Two points of the box are no farther apart than its corners. Roundings: differences, squares,
+ * sums 2, halved by the root, root, product. */
+PAD_COVERS(8, 1 + 2 + 1 + 1);
+double symmetry_slack_upper(const imp_symmetry *found, const double lo[3], const double hi[3])
+{
+    double sum = 0;
+    if ((found->is_closed & IMP_SYMMETRY_NEARLY) == 0) return 0;
+    for (int i = 0; i < 3; ++i) sum += (hi[i] - lo[i]) * (hi[i] - lo[i]);
+    return padded_upper(IMP_NEARLY_SLACK * sqrt(sum), 8) + ROOT_UNDERFLOW;
 }

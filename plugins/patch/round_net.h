@@ -3,21 +3,19 @@
 #ifndef PLUGINS_PATCH_ROUND_NET_H
 #define PLUGINS_PATCH_ROUND_NET_H
 
-#include "plugins/common/frame.h"
-#include "plugins/patch/knots.h"
-#include "plugins/patch/round_profile.h"
+#include "plugins/patch/ring_net.h"
 
 /* NURBS surfaces that are round or flat
  * =====================================
  * CAD systems write a cylinder, a cone, a ball, a torus, or a part of one, as a rational net: rows
  * of control points of arcs about one axis. Such a surface lies on the round one but for rounding,
- * and has its distance and its symmetry. How far it is off is bounded, and subtracted. */
+ * and has its distance and its symmetry. How far it is off is bounded, and subtracted; one that goes
+ * around is closed but for IMP_NEARLY_SLACK. */
 
 typedef struct round_net {
     round_profile profile; /* about the axis, beside the center; ROUND_NONE: the net is neither */
-    double center[3];      /* length */
-    double axis[3];
-    frame frame; /* about the axis */
+    ring_place at;
+    uint32_t closed; /* IMP_SYMMETRY_CLOSED, ... */
 } round_net;
 
 /* Finds what a surface at rest is. `points`: 3 numbers for each of side[0].count *

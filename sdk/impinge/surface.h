@@ -314,14 +314,21 @@ enum {
  * point then stands for its whole orbit where two surfaces have an axis or a center in common.
  *
  * ZONE, for ABOUT_POINT only: the surface is no whole ball, but rotations about the line through
- * the center along the axis (which then counts) map it onto itself: a zone or a cap of a sphere. */
+ * the center along the axis (which then counts) map it onto itself: a zone or a cap of a sphere.
+ *
+ * NEARLY, with CLOSED or ZONE of what is no screw, and no orbits: these rotations take each point of
+ * the surface to one that may be off the surface, by IMP_NEARLY_SLACK times the greatest distance of
+ * two points of the surface at that t: what is closed but for rounding. That is taken off bounds. */
 enum {
     IMP_SYMMETRY_CLOSED = 1,
     IMP_SYMMETRY_ORBIT_U = 2,
     IMP_SYMMETRY_ORBIT_V = 4,
     IMP_SYMMETRY_ORBIT_ALL = 8,
-    IMP_SYMMETRY_ZONE = 16
+    IMP_SYMMETRY_ZONE = 16,
+    IMP_SYMMETRY_NEARLY = 32
 };
+
+#define IMP_NEARLY_SLACK 0x1p-36
 
 typedef struct imp_symmetry {
     uint32_t kind;      /* IMP_SYMMETRY_ABOUT_POINT, ... */

@@ -87,11 +87,12 @@ static void draw_frame(uint64_t *random, double f[3][3])
         f[1][i] = f[2][(i + 1) % 3] * f[0][(i + 2) % 3] - f[2][(i + 2) % 3] * f[0][(i + 1) % 3];
 }
 
-/* Makes a random surface, the ring along either side, each number off by up to `off`. */
-static void draw_net(uint64_t *random, double off, nurbs_instance *f)
+/* Makes a random surface, the ring along either side, each number off by up to `off`. Returns the
+ * side. */
+static int draw_net_of(uint64_t *random, row ring, double off, nurbs_instance *f)
 {
     int degree;
-    const row ring = draw_ring(random), profile = draw_profile(random, &degree);
+    const row profile = draw_profile(random, &degree);
     const bool along_v = random_between(random, -1, 1) < 0;
     double axes[3][3], center[3], points[3 * POINTS_MAX], weights[POINTS_MAX], bytes;
     draw_frame(random, axes);
@@ -114,6 +115,12 @@ static void draw_net(uint64_t *random, double off, nurbs_instance *f)
                              .points = points,
                              .weights = weights};
     ck_assert(nurbs_make(f, &data, &bytes));
+    return along_v;
+}
+
+static void draw_net(uint64_t *random, double off, nurbs_instance *f)
+{
+    draw_net_of(random, draw_ring(random), off, f);
 }
 
 static double claimed(const nurbs_instance *f, const double x[3])
@@ -213,7 +220,84 @@ START_TEST(no_distance_is_greater_than_that_of_a_point_on_the_surface)
 }
 END_TEST
 
-/* The test above must be able to fail. */
+/* --- Closed but for rounding ------------------------------------------------------------------ */
+
+/* A whole turn of four arcs, but for a gap. */
+static row turn_but_for(double gap)
+{
+    row r = circle();
+    const double half = (6.283185307179586 - gap) / 8;
+    for (int k = 0; k < 9; ++k) {
+        const double size = k % 2 == 1 ? 1 / cos(half) : 1;
+        r.at[k][0] = size * cos(k * half);
+        r.at[k][1] = size * sin(k * half);
+        r.weight[k] = k % 2 == 1 ? cos(half) : 1;
+    }
+    return r;
+}
+
+/* The least distance of x from the ring of that v that is found. */
+static double apart_from_ring(const nurbs_instance *f, int along, double v, const double x[3])
+{
+    double lo[3], hi[3], least = INFINITY, at = 0;
+    nurbs_domain(f, lo, hi);
+    double width = (hi[along] - lo[along]) / 64;
+    for (int round = 0; round < 24; ++round, width *= 0.125) {
+        const double middle = at;
+        for (int k = round == 0 ? 0 : -16; k <= (round == 0 ? 64 : 16); ++k) {
+            const double u = (round == 0 ? lo[along] : middle) + k * width;
+            double p[3] = {v, v, 0}, y[3], square = 0;
+            p[along] = imp_smaller(imp_larger(u, lo[along]), hi[along]);
+            ck_assert_int_eq(nurbs_eval(f, 1, p, y, NULL), IMP_STATUS_OK);
+            for (int i = 0; i < 3; ++i) square += (x[i] - y[i]) * (x[i] - y[i]);
+            if (!(sqrt(square) < least)) continue;
+            least = sqrt(square);
+            at = p[along];
+        }
+    }
+    return least;
+}
+
+/* Rings with gaps of all sizes: turned about the axis, also by half the gap, either way. */
+START_TEST(rings_that_are_nearly_closed_are_so_within_the_slack)
+{
+    uint64_t random = suite_seed();
+    size_t closed = 0, open = 0;
+    for (int n = 0; n < suite_times_at_least(300); ++n) {
+        const double gap = random_between(&random, 0, 1) < 0.3 ? 0 : random_power(&random, -48, -2),
+                     off =
+                         random_between(&random, 0, 1) < 0.5 ? 0 : random_power(&random, -52, -30);
+        nurbs_instance f;
+        imp_symmetry s;
+        memset(&s, 0, sizeof s);
+        const int along = draw_net_of(&random, turn_but_for(gap), off, &f);
+        const bool has = nurbs_symmetry(&f, &s) == IMP_STATUS_OK;
+        if (!has || s.is_closed == 0) ++open;
+        for (int k = 0; has && s.is_closed != 0 && k < 8; ++k) {
+            double lo[3], hi[3], p[3] = {0}, x[3];
+            const double slide[3] = {0}, angle = k < 2   ? 0.5 * gap
+                                                 : k < 4 ? -0.5 * gap
+                                                         : random_between(&random, -4, 4);
+            nurbs_domain(&f, lo, hi);
+            const double v = lo[!along] + random_between(&random, 0, 1) * (hi[!along] - lo[!along]);
+            p[!along] = v;
+            p[along] = k % 2 == 0 ? lo[along] : hi[along];
+            ck_assert_int_eq(nurbs_eval(&f, 1, p, x, NULL), IMP_STATUS_OK);
+            move(&s, angle, slide, x);
+            const double apart = apart_from_ring(&f, along, v, x);
+            /* all points are within 10 of the center */
+            ck_assert_msg(apart <= 20 * IMP_NEARLY_SLACK, "%g apart, gap %g", apart, gap);
+        }
+        closed += has && s.is_closed != 0;
+        ck_assert(!has || (s.is_closed != 0) == ((s.is_closed & IMP_SYMMETRY_NEARLY) != 0));
+        nurbs_clear(&f);
+    }
+    ck_assert_uint_gt(closed, 50);
+    ck_assert_uint_gt(open, 50);
+}
+END_TEST
+
+/* The first test must be able to fail. */
 START_TEST(what_a_net_is_off_by_has_to_be_subtracted)
 {
     ck_assert_double_gt(judge_nets(0.125).beyond, ASKED_OFF);
@@ -251,5 +335,6 @@ START_TEST(surfaces_that_are_neither_round_nor_at_rest_have_no_distance)
 END_TEST
 
 SUITE_MAIN("round nets", no_distance_is_greater_than_that_of_a_point_on_the_surface,
+           rings_that_are_nearly_closed_are_so_within_the_slack,
            what_a_net_is_off_by_has_to_be_subtracted,
            surfaces_that_are_neither_round_nor_at_rest_have_no_distance)

@@ -110,7 +110,9 @@ static bool judge_symmetry(const subject *s, const imp_symmetry *found)
 {
     const uint32_t of_axis = IMP_SYMMETRY_ORBIT_U | IMP_SYMMETRY_ORBIT_V | IMP_SYMMETRY_ZONE,
                    of_ball = IMP_SYMMETRY_ORBIT_ALL | IMP_SYMMETRY_ZONE,
-                   flags = IMP_SYMMETRY_CLOSED | of_axis | of_ball;
+                   closed = IMP_SYMMETRY_CLOSED | IMP_SYMMETRY_ZONE,
+                   flags = IMP_SYMMETRY_CLOSED | IMP_SYMMETRY_NEARLY | of_axis | of_ball;
+    const bool is_nearly = (found->is_closed & IMP_SYMMETRY_NEARLY) != 0;
     const bool is_ball = found->kind == IMP_SYMMETRY_ABOUT_POINT;
     bool sane = found->kind >= IMP_SYMMETRY_ABOUT_POINT && found->kind <= IMP_SYMMETRY_SCREW_LEFT;
     double most = 0;
@@ -120,6 +122,8 @@ static bool judge_symmetry(const subject *s, const imp_symmetry *found)
     }
     sane = sane && found->is_closed <= flags && (is_ball || (found->is_closed & of_ball) == 0) &&
            (found->kind <= IMP_SYMMETRY_ACROSS_LINE || found->is_closed <= IMP_SYMMETRY_CLOSED);
+    sane = sane && (!is_nearly || ((found->is_closed & closed) != 0 &&
+                                   (found->is_closed & ~(closed | IMP_SYMMETRY_NEARLY)) == 0));
     const bool has_axis = !is_ball || (found->is_closed & of_axis) != 0;
     sane = sane && (!has_axis || (most >= 1e-100 && most <= 1e100));
     return sane ||
