@@ -15,11 +15,12 @@ static double slack_of(const imp_symmetry *found, const imp_model bare[3])
     return symmetry_slack_upper(found, lo, hi);
 }
 
-/* Lemma. Let P(t) be the motion by the first maps of s. In the lemma of slip_upper let b be s under
- * these maps, and a be P(t0) s at rest. Then the points of P(t0) s are within `slip` of P(t) s, and
- * those of P(t) s within `slip` of P(t0) s: F, which takes one center and axis to the other, moves
- * neither farther, and what is closed but for a slack has a point within that of each image. So P(t) s may be replaced by P(t0) s if `slip` is subtracted from the distances
- * that are proved. */
+/* Lemma. Let P(t) be the motion by the first maps of s. In the lemma of slip_upper let b be s
+ * under these maps, and a be P(t0) s at rest. Then the points of P(t0) s are within `slip` of P(t)
+ * s, and those of P(t) s within `slip` of P(t0) s: F, which takes one center and axis to the
+ * other, moves neither farther, and what is closed but for a slack has a point within that of each
+ * image. So P(t) s may be replaced by P(t0) s if `slip` is subtracted from the distances that are
+ * proved. */
 static imp_status slip_of_first(const surface *s, size_t maps, const imp_symmetry *found,
                                 const imp_model bare[3], const imp_region *times,
                                 const imp_region *then, double *slip)
@@ -68,9 +69,9 @@ imp_status slip_first_maps(const surface *s, bool of_pieces, const imp_model bar
     return IMP_STATUS_OK;
 }
 
-/* Bounds in *slip how far a's motion, as seen from b, leaves b's closed symmetry. Lemma. Where that is
- * closed but for a slack, a motion S of it changes no distance from b by more: S^-1 b has a point
- * within that of each of b, and b of each of S^-1 b. */
+/* Bounds in *slip how far a's motion, as seen from b, leaves b's closed symmetry. Lemma. Where
+ * that is closed but for a slack, a motion S of it changes no distance from b by more: S^-1 b has
+ * a point within that of each of b, and b of each of S^-1 b. */
 static imp_status slip_of_rest(const surface *const s[2], bool of_pieces, const size_t still[2],
                                const imp_model *const bare[2], const imp_region *times,
                                const imp_region *then, double *slip)

@@ -206,7 +206,8 @@ static double small_angle(const double a[2], const double b[2])
     return fabs(sine) <= 0x1p-20 * cosine ? 1.001 * fabs(sine) / cosine : INFINITY;
 }
 
-/* Whether a span's points, `most` in size, are all surely on the side of 0 on which its ends are. */
+/* Whether a span's points, `most` in size, are all surely on the side of 0 on which its ends
+ * are. */
 static bool is_beside_zero(const double *points, int degree, double most)
 {
     const double *a = points, *b = points + 2 * (size_t)degree;
@@ -218,12 +219,12 @@ static bool is_beside_zero(const double *points, int degree, double most)
     return all;
 }
 
-/* Lemma. A span's Bezier points are known within 2^-43 X (ring_take_curve), X the greatest |x| + |y|
- * of a control point. If all have a product with one vector no longer than 2 that is >= 2^-10 X, the
- * true ones, and so the span, are in an open half plane beside 0. Then its direction, which is
- * continuous, passes all between those of its ends, and has turned by their angle. The ends are 2^-10
- * X from 0 at least, and off by 2^-33 ... 2^-43 X / |end| in direction; that is added to each gap,
- * once for either side. */
+/* Lemma. A span's Bezier points are known within 2^-43 X (ring_take_curve), X the greatest |x| +
+ * |y| of a control point. If all have a product with one vector no longer than 2 that is >= 2^-10
+ * X, the true ones, and so the span, are in an open half plane beside 0. Then its direction, which
+ * is continuous, passes all between those of its ends, and has turned by their angle. The ends are
+ * 2^-10 X from 0 at least, and off by 2^-33 ... 2^-43 X / |end| in direction; that is added to
+ * each gap, once for either side. */
 ring_sweep ring_sweep_of(const ring_net *n, const knots *k, control_point *control)
 {
     ring_sweep s = {.gap = 0};
@@ -243,10 +244,10 @@ ring_sweep ring_sweep_of(const ring_net *n, const knots *k, control_point *contr
     return s;
 }
 
-/* Lemma. The spans' directions, and short arcs from one's end to the next one's start, make a closed
- * path on the circle. It goes around a whole number of times; the spans turn by more than 6, and all
- * arcs by 2^12 2^-20 at most, so that this is not 0: the path passes each direction. Those of the
- * arcs are within a gap of an end. */
+/* Lemma. The spans' directions, and short arcs from one's end to the next one's start, make a
+ * closed path on the circle. It goes around a whole number of times; the spans turn by more than
+ * 6, and all arcs by 2^12 2^-20 at most, so that this is not 0: the path passes each direction.
+ * Those of the arcs are within a gap of an end. */
 double ring_gap(const ring_sweep *s)
 {
     const double last = small_angle(s->last, s->first);

@@ -84,8 +84,8 @@ typedef struct ring_sweep {
 
 ring_sweep ring_sweep_of(const ring_net *n, const knots *k, control_point *control);
 
-/* Returns a g so that each direction is within g of one in which the curve goes from 0; INFINITY: it
- * is not known to go around. */
+/* Returns a g so that each direction is within g of one in which the curve goes from 0; INFINITY:
+ * it is not known to go around. */
 double ring_gap(const ring_sweep *s);
 
 /* Likewise for all directions of a half plane beside the second axis. */

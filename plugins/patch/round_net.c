@@ -9,8 +9,8 @@
  * circle, is no plane and no circle; a profile may be as far off as round_profile.c permits. */
 #define ROUND_NET_OFF_MOST 0x1p-30
 
-/* Nets of other sizes are not examined: squares and their squares, and all intervals, are finite, so
- * that there is no NaN. */
+/* Nets of other sizes are not examined: squares and their squares, and all intervals, are finite,
+ * so that there is no NaN. */
 #define ROUND_NET_LEAST 1e-50
 #define ROUND_NET_MOST 1e50
 
@@ -109,14 +109,14 @@ typedef struct ring_parts {
 
 static bool is_ball(const round_profile *p) { return p->kind == ROUND_CIRCLE && p->ring == 0; }
 
-/* Lemma. Let directions of E be within g of each direction. A rotation S about the axis takes a point
- * of the surface, `products` from c + z k + q E, and so products + |q| e from c + z k + q n, n =
- * E/|E|, to within that of c + z k + q S n, and some E' is within e + g of S n: with the same (q, z),
- * the surface has a point within 2 products + |q| (2 e + g). Let (q, z) also have directions within h
- * of each on one side of the axis, and be within `off` of a circle of radius R about 0. A rotation
- * about c takes a point products + |q| e + off from the ball's sphere, and each point of that is
- * within products + |q| (e + g) + off + R h of one of the surface. An angle is no less than its
- * chord. */
+/* Lemma. Let directions of E be within g of each direction. A rotation S about the axis takes a
+ * point of the surface, `products` from c + z k + q E, and so products + |q| e from c + z k + q n,
+ * n = E/|E|, to within that of c + z k + q S n, and some E' is within e + g of S n: with the same
+ * (q, z), the surface has a point within 2 products + |q| (2 e + g). Let (q, z) also have
+ * directions within h of each on one side of the axis, and be within `off` of a circle of radius R
+ * about 0. A rotation about c takes a point products + |q| e + off from the ball's sphere, and
+ * each point of that is within products + |q| (e + g) + off + R h of one of the surface. An angle
+ * is no less than its chord. */
 static uint32_t closed_of(const ring_net *n, const round_net *r, const ring_parts *parts)
 {
     const double most = IMP_NEARLY_SLACK * n->radius;
@@ -132,8 +132,9 @@ static uint32_t closed_of(const ring_net *n, const round_net *r, const ring_part
 }
 
 /* Lemma. With P'_ij = c + z_j k + q_j E_i and weights a_i b_j the surface is c + z(v) k + q(v)
- * E(u), (q, z) and E rational curves of one side each. Where ||E| - 1| <= e, it is within e max |q|
- * of the surface that (q, z) sweeps about the axis; and the true one within ring_product_off of it. */
+ * E(u), (q, z) and E rational curves of one side each. Where ||E| - 1| <= e, it is within e max
+ * |q| of the surface that (q, z) sweeps about the axis; and the true one within ring_product_off
+ * of it. */
 static bool judge(ring_net *n, round_net *r, round_profile shape)
 {
     round_profile circle = {.kind = ROUND_CIRCLE, .radius = 1};

@@ -7,10 +7,11 @@
 
 /* NURBS surfaces that are round or flat
  * =====================================
+ *
  * CAD systems write a cylinder, a cone, a ball, a torus, or a part of one, as a rational net: rows
  * of control points of arcs about one axis. Such a surface lies on the round one but for rounding,
- * and has its distance and its symmetry. How far it is off is bounded, and subtracted; one that goes
- * around is closed but for IMP_NEARLY_SLACK. */
+ * and has its distance and its symmetry. How far it is off is bounded, and subtracted; one that
+ * goes around is closed but for IMP_NEARLY_SLACK. */
 
 typedef struct round_net {
     round_profile profile; /* about the axis, beside the center; ROUND_NONE: the net is neither */

@@ -316,9 +316,10 @@ enum {
  * ZONE, for ABOUT_POINT only: the surface is no whole ball, but rotations about the line through
  * the center along the axis (which then counts) map it onto itself: a zone or a cap of a sphere.
  *
- * NEARLY, with CLOSED or ZONE of what is no screw, and no orbits: these rotations take each point of
- * the surface to one that may be off the surface, by IMP_NEARLY_SLACK times the greatest distance of
- * two points of the surface at that t: what is closed but for rounding. That is taken off bounds. */
+ * NEARLY, with CLOSED or ZONE of what is no screw, and no orbits: what is closed but for rounding.
+ * These rotations, and their inverses, take each point of the surface to one that is off the
+ * surface by at most IMP_NEARLY_SLACK times the greatest distance of two of its points at that t;
+ * that is taken off the distances. */
 enum {
     IMP_SYMMETRY_CLOSED = 1,
     IMP_SYMMETRY_ORBIT_U = 2,
