@@ -39,7 +39,7 @@ static void middle_in_frame(const ring_place *r, const double *point, double out
     for (int i = 0; i < 3; ++i) out[i] = imp_interval_mid(w[i]);
 }
 
-/* --- Rings of control points -------------------------------------------------------------------- */
+/* --- Rings of control points ----------------------------------------------------------------- */
 
 void ring_point(const ring_net *n, size_t j, double part, double out[3])
 {
@@ -195,11 +195,11 @@ double ring_product_off(const ring_net *n, double *reach)
     return imp_sum_up(off + imp_round_up(2 * size * imp_interval_mag(spread)));
 }
 
-/* --- Whether curves go around ------------------------------------------------------------------ */
+/* --- Whether curves go around ----------------------------------------------------------------- */
 
 static double plane_dot(const double a[2], const double b[2]) { return a[0] * b[0] + a[1] * b[1]; }
 
-/* Of an angle below a half turn, at least; INFINITY: it may be more. */
+/* Returns >= the angle between a and b if that is small; INFINITY: it is not. */
 static double small_angle(const double a[2], const double b[2])
 {
     const double sine = a[0] * b[1] - a[1] * b[0], cosine = plane_dot(a, b);
@@ -254,7 +254,7 @@ double ring_gap(const ring_sweep *s)
     return fabs(s->angle) > 6 && last <= 0x1p-20 ? imp_sum_up(s->gap + last) : INFINITY;
 }
 
-/* Lemma. Likewise a path from one half of the second axis to the other, or from nearby, that turns
+/* Lemma. A path from one half of the second axis to the other, or from nearby, that turns
  * by more than 3 and less than 4, so by about pi, passes each direction on one side of the axis but
  * for those nearby. */
 double ring_half_gap(const ring_sweep *s)

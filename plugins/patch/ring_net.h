@@ -88,7 +88,7 @@ ring_sweep ring_sweep_of(const ring_net *n, const knots *k, control_point *contr
  * it is not known to go around. */
 double ring_gap(const ring_sweep *s);
 
-/* Likewise for all directions of a half plane beside the second axis. */
+/* Returns such a g for all directions of a half plane beside the second axis. */
 double ring_half_gap(const ring_sweep *s);
 
 /* --- Vectors and numbers ---------------------------------------------------------------------- */

@@ -16,7 +16,7 @@
 
 static bool has_size(double x) { return x >= ROUND_NET_LEAST && x <= ROUND_NET_MOST; }
 
-/* --- Places ------------------------------------------------------------------------------------ */
+/* --- Places ----------------------------------------------------------------------------------- */
 
 /* Sets center, axis and frame. The axis is made to point to the positive side of the coordinate
  * that is its greatest. False: it has no length. */
