@@ -219,10 +219,11 @@ const everyday_family everyday_families[] = {
      false, FIVE, 100, "", ""},
     /* NURBS that are round */
     {"shaft of NURBS that turns in a bore of NURBS", NURBS_CYLINDER("1", "-1", "1"), "",
-     NURBS_CYLINDER("~1", "@-1", "0.5"), TURN(Z_AXIS, "3"), BOND_NONE, 0, false, FIVE, 50, "", ""},
+     NURBS_CYLINDER("~1", "@-1", "0.5"), TURN(Z_AXIS, "3"), BOND_NONE, 0, false, "1234", 50, "",
+     ""},
     {"rollers of NURBS", NURBS_CYLINDER("1", "-1", "1"), TURN(Z_AXIS, "20"),
      NURBS_CYLINDER("1", "-1", "0.9"), TURN(Z_AXIS, "-20") "," PUT("@2,0,0"), BOND_NONE, 0, false,
-     FIVE, 50, "", ""},
+     "1234", 50, "", ""},
     {"can that turns in a bore of NURBS", NURBS_CYLINDER("1", "-1", "1"), PLACE,
      CAN("~1", "1", "0,0,0"), TURN(Z_AXIS, "3") "," SAME_PLACE, BOND_NONE, 0, false, FIVE, 10, "",
      ""},
