@@ -209,6 +209,41 @@ START_TEST(points_of_one_half_plane_are_as_near)
 }
 END_TEST
 
+/* The slip of two surfaces about one line, at rest, in boxes of 18 each way. */
+static double slip_at_rest(uint32_t first, uint32_t second)
+{
+    const double lo[3] = {-9, -9, -9}, hi[3] = {9, 9, 9};
+    const half_plane_boxes boxes = {{lo, lo}, {hi, hi}};
+    const imp_region times = region_make((double[3]){0, 0, 0}, (double[3]){1, 1, 1});
+    side s[2];
+    half_plane h[2];
+    double slip;
+    int asked;
+    for (int k = 0; k < 2; ++k)
+        s[k] = (side){.of = {.kind = IMP_SYMMETRY_ABOUT_LINE, .axis = {0, 0, 1}}};
+    s[0].of.is_closed = first;
+    s[1].of.is_closed = second;
+    surface *made[2] = {surface_of(&s[0]), surface_of(&s[1])};
+    const surface *const both[2] = {made[0], made[1]};
+    ck_assert_int_eq(surface_half_plane(both, &boxes, &times, h, &slip, &asked), IMP_STATUS_OK);
+    surface_free(made[0]);
+    surface_free(made[1]);
+    return slip;
+}
+
+START_TEST(what_is_closed_but_for_a_slack_slips_by_it)
+{
+    const uint32_t closed = IMP_SYMMETRY_CLOSED, loose = closed | IMP_SYMMETRY_NEARLY;
+    const double exact = slip_at_rest(closed, closed);
+    const double slack = IMP_NEARLY_SLACK * 31.17; /* 18 3^(1/2): the diagonal of a box */
+    ck_assert_double_lt(exact, 1e-12);
+    ck_assert_double_ge(slip_at_rest(closed, loose), exact + slack);
+    ck_assert_double_ge(slip_at_rest(loose, closed), exact + slack);
+    ck_assert_double_ge(slip_at_rest(loose, loose), exact + 2 * slack);
+    ck_assert_double_lt(slip_at_rest(loose, loose), exact + 2.002 * slack);
+}
+END_TEST
+
 /* --- Answers ---------------------------------------------------------------------------------- */
 
 typedef struct coaxial {
@@ -309,6 +344,7 @@ END_TEST
 int main(void)
 {
     const suite_loop loops[] = {{points_of_one_half_plane_are_as_near, 1},
+                                {what_is_closed_but_for_a_slack_slips_by_it, 1},
                                 {coaxial_surfaces_meet_when_they_do, COAXIALS},
                                 {nothing_is_left_where_memory_ends, 1}};
     return suite_main_loops("half planes", loops, sizeof loops / sizeof *loops, NULL, NULL);

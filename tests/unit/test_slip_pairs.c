@@ -131,9 +131,9 @@ static size_t two(const void *self)
 
 static const void *piece_of(const void *self, size_t k) { return (const imp_symmetry *)self + k; }
 
-/* The slip of a surface of two pieces that turns about the z axis, beside one at rest that has no
- * closed symmetry. */
-static double slip_of_two(const imp_symmetry pieces[2])
+/* The slip of a surface of two pieces and one that has no closed symmetry, of which one turns about
+ * the z axis: the first, or else the second. */
+static double slip_of_turn(const imp_symmetry pieces[2], bool is_first)
 {
     imp_surface_type many = target;
     imp_symmetry open = ball();
@@ -145,16 +145,18 @@ static double slip_of_two(const imp_symmetry pieces[2])
     many.piece_count = two;
     many.piece = piece_of;
     for (int i = 0; i < 3; ++i) bare[0][i] = bare[1][i] = imp_between(-12, 12);
-    surface *turns = surface_new(&many, (void *)(uintptr_t)pieces);
-    surface *rests = compose(&open, none, 0);
-    const surface *const both[2] = {rests, turns};
-    ck_assert_int_eq(surface_add_map(turns, &exactly, &spin), IMP_SUCCESS);
-    ck_assert_int_eq(surface_divide(turns), IMP_SUCCESS);
+    surface *closed = surface_new(&many, (void *)(uintptr_t)pieces);
+    surface *other = compose(&open, none, 0);
+    const surface *const both[2] = {other, closed};
+    ck_assert_int_eq(surface_add_map(is_first ? closed : other, &exactly, &spin), IMP_SUCCESS);
+    ck_assert_int_eq(surface_divide(closed), IMP_SUCCESS);
     ck_assert_int_eq(surface_pair_slip(both, true, bare, &times, 0, &slip, &asked), IMP_STATUS_OK);
-    surface_free(turns);
-    surface_free(rests);
+    surface_free(closed);
+    surface_free(other);
     return slip;
 }
+
+static double slip_of_two(const imp_symmetry pieces[2]) { return slip_of_turn(pieces, true); }
 
 START_TEST(a_surface_of_pieces_turns_within_itself_if_all_of_them_do)
 {
@@ -187,5 +189,25 @@ START_TEST(a_surface_of_pieces_turns_within_itself_if_all_of_them_do)
 }
 END_TEST
 
+START_TEST(what_is_closed_but_for_a_slack_slips_by_it)
+{
+    const imp_symmetry wheel = {.kind = IMP_SYMMETRY_ABOUT_LINE, .is_closed = 1, .axis = {0, 0, 1}};
+    imp_symmetry loose = wheel;
+    loose.is_closed |= IMP_SYMMETRY_NEARLY;
+    const imp_symmetry some[3][2] = {{loose, wheel}, {wheel, loose}, {loose, loose}};
+    const imp_symmetry none[2] = {wheel, wheel};
+    const double slack = IMP_NEARLY_SLACK * 41.56; /* 24 3^(1/2): the diagonal of the box */
+    for (int k = 0; k < 2; ++k) {
+        const double exact = slip_of_turn(none, k == 0);
+        ck_assert_double_lt(exact, 1e-12);
+        for (int j = 0; j < 3; ++j) {
+            ck_assert_double_ge(slip_of_turn(some[j], k == 0), exact + slack);
+            ck_assert_double_lt(slip_of_turn(some[j], k == 0), exact + 1.001 * slack);
+        }
+    }
+}
+END_TEST
+
 SUITE_MAIN("slip_pairs", no_pair_comes_nearer_than_by_its_slip,
-           a_surface_of_pieces_turns_within_itself_if_all_of_them_do)
+           a_surface_of_pieces_turns_within_itself_if_all_of_them_do,
+           what_is_closed_but_for_a_slack_slips_by_it)
