@@ -189,9 +189,9 @@ static imp_code try_start(impact *im, pair *p, const distance_outcome *distances
 /* Whether a contact is to be sought widely at the start of the pair's window. Surfaces that cross
  * there from the beginning would else be divided until their remainders are below gamma, in an
  * order that ties decide. Each candidate pair has a count of its own, in the order in which its
- * pairs are expanded, so that the search and its contact are independent of other bodies. Not where
- * gamma_clear is nearly gamma, as for a required distance: there the bounds themselves tell soon,
- * and contradict a type that lies. */
+ * pairs are expanded, so that the parts of a divided query seek at the same pairs as the whole. Not
+ * where gamma_clear is nearly gamma, as for a required distance: there the bounds themselves tell
+ * soon, and contradict a type that lies. */
 static bool is_wide_search_due(const impact *im, const pair *p)
 {
     if (im->upper.has_nets || im->trials == NULL || im->spread != NULL) return false;

@@ -71,8 +71,9 @@ bool nurbs_make(nurbs_instance *f, const nurbs_data *data, double *bytes)
         if (!knots_make(&f->side[side], &data->knots[side], data->degree[side])) return false;
     if (!copy_points(f, data)) return false;
     *bytes = bytes_of(f);
+    if (!(*bytes <= NURBS_CELLS_MAX)) return false;
     find_round(f);
-    return *bytes <= NURBS_CELLS_MAX && allocate_cells(f) && nurbs_make_cells(f);
+    return allocate_cells(f) && nurbs_make_cells(f);
 }
 
 bool nurbs_renew(nurbs_instance *f, const nurbs_data *data)
