@@ -159,6 +159,24 @@ bool ring_take_curve(const ring_net *n, const knots *k, control_point *control, 
     return true;
 }
 
+/* Lemma. The ends of a span are points of the curve, known within 2^-43 X (ring_take_curve), X the
+ * greatest |x| + |y| of a control point; roundings here are below 2^-52 X. */
+double ring_half_size_lower(const ring_net *n)
+{
+    double points[2 * SIDE_MAX], weights[SIDE_MAX], wide = 0, low = INFINITY, high = -INFINITY;
+    for (size_t span = 0; span < n->profile->spans; ++span) {
+        const double most = span_points(n, n->profile, span, ring_profile_control, points, weights);
+        for (int k = 0; k < 2; ++k) {
+            const double *end = points + 2 * (size_t)(k * n->profile->degree);
+            const double off = 0x1p-42 * most;
+            wide = imp_larger(wide, fabs(end[0]) - off);
+            low = imp_smaller(low, end[1] + off);
+            high = imp_larger(high, end[1] - off);
+        }
+    }
+    return imp_larger(wide, 0.5 * (high - low));
+}
+
 /* --- What the net is off by ------------------------------------------------------------------- */
 
 double ring_product_off(const ring_net *n, double *reach)

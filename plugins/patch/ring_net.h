@@ -71,6 +71,10 @@ size_t ring_widest(const ring_net *n);
 /* Fills or widens a profile by all spans of a curve. False: it is neither line nor arc. */
 bool ring_take_curve(const ring_net *n, const knots *k, control_point *control, round_profile *p);
 
+/* Returns <= the greatest |q| of a point of the profile's curve, or half of what its heights span:
+ * control points may lie far from it. */
+double ring_half_size_lower(const ring_net *n);
+
 /* How far control points are from products q_j (x_i, y_i), z_j, at most; and what weights that are
  * no products of two numbers move (ring_take_curve). Also the greatest |q_j|. */
 double ring_product_off(const ring_net *n, double *reach);

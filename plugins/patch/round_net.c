@@ -116,10 +116,14 @@ static bool is_ball(const round_profile *p) { return p->kind == ROUND_CIRCLE && 
  * directions within h of each on one side of the axis, and be within `off` of a circle of radius R
  * about 0. A rotation about c takes a point products + |q| e + off from the ball's sphere, and
  * each point of that is within products + |q| (e + g) + off + R h of one of the surface. An angle
- * is no less than its chord. */
+ * is no less than its chord.
+ *
+ * Let H be ring_half_size_lower, and all of that be below s H, s = 2^-36. Two points of the surface
+ * with opposite n, or at heights 2 H apart, are at least 2 H - 3 s H > H apart: so it is below s
+ * times the greatest distance of two points. */
 static uint32_t closed_of(const ring_net *n, const round_net *r, const ring_parts *parts)
 {
-    const double most = IMP_NEARLY_SLACK * n->radius;
+    const double most = imp_round_down(IMP_NEARLY_SLACK * ring_half_size_lower(n));
     const ring_sweep around = ring_sweep_of(n, n->ring, ring_control);
     const double own = imp_sum_up(parts->products + imp_round_up(parts->reach * parts->ring));
     const double gap = imp_sum_up(2 * own + imp_round_up(parts->reach * ring_gap(&around)));

@@ -297,6 +297,35 @@ START_TEST(rings_that_are_nearly_closed_are_so_within_the_slack)
 }
 END_TEST
 
+/* A cone of three arcs, its profile a cubic with one control point 2^24 out, of weight 2^-24, far
+ * from the surface. One end of its first ring is lowered by 2^-13. */
+START_TEST(control_points_far_from_the_surface_leave_the_slack_as_it_is)
+{
+    enum { RING = 7, PROFILE = 8 };
+    const double ring_knots[] = {0, 0, 0, 1, 1, 2, 2, 3, 3, 3};
+    const double profile_knots[] = {0, 0, 0, 0, 1, 2, 3, 4, 5, 6, 7, 8}, third = 1.0471975511965976;
+    double points[3 * RING * PROFILE], weights[RING * PROFILE], bytes;
+    for (int k = 0; k < RING * PROFILE; ++k) {
+        const int i = k / PROFILE, j = k % PROFILE;
+        const double s = j == 5 ? 0x1p24 : j, part = i % 2 == 1 ? 0.5 : 1, q = (1 + s) / part;
+        points[3 * k] = q * cos(i * third);
+        points[3 * k + 1] = q * sin(i * third);
+        points[3 * k + 2] = s / 256 - (k == 0 ? 0x1p-13 : 0);
+        weights[k] = part * (j == 5 ? 0x1p-24 : 1);
+    }
+    const nurbs_data data = {.degree = {2, 3},
+                             .knots = {{ring_knots, 10, 0, -1}, {profile_knots, 12, 0, -1}},
+                             .points = points,
+                             .weights = weights};
+    nurbs_instance f;
+    imp_symmetry s;
+    ck_assert(nurbs_make(&f, &data, &bytes));
+    ck_assert_int_eq(nurbs_symmetry(&f, &s), IMP_STATUS_OK);
+    ck_assert_uint_eq(s.is_closed, 0);
+    nurbs_clear(&f);
+}
+END_TEST
+
 /* The first test must be able to fail. */
 START_TEST(what_a_net_is_off_by_has_to_be_subtracted)
 {
@@ -336,5 +365,6 @@ END_TEST
 
 SUITE_MAIN("round nets", no_distance_is_greater_than_that_of_a_point_on_the_surface,
            rings_that_are_nearly_closed_are_so_within_the_slack,
+           control_points_far_from_the_surface_leave_the_slack_as_it_is,
            what_a_net_is_off_by_has_to_be_subtracted,
            surfaces_that_are_neither_round_nor_at_rest_have_no_distance)
