@@ -27,12 +27,14 @@ static inline int suite_times(int usual)
     return factor * usual < 1 ? 1 : (int)(factor * usual);
 }
 
-/* For tests that have to find something: never fewer than usual. */
-static inline int suite_times_at_least(int usual)
+/* For tests that have to find something: never fewer than `least`. */
+static inline int suite_times_from(int usual, int least)
 {
     const int times = suite_times(usual);
-    return times < usual ? usual : times;
+    return times < least ? least : times;
 }
+
+static inline int suite_times_at_least(int usual) { return suite_times_from(usual, usual); }
 
 /* An end of [-1, 1] as often as a number inside. */
 static inline double suite_end_or_inside(uint64_t *state)

@@ -300,7 +300,7 @@ START_TEST(no_points_are_nearer_than_is_claimed_of_all_pieces)
 {
     uint64_t random = suite_seed();
     tally sum = {0, 0, 0, 0, 0};
-    for (int k = 0; k < suite_times_at_least(SCENES); ++k) try_scene(1, &random, &sum);
+    for (int k = 0; k < suite_times_from(SCENES, SCENES / 3); ++k) try_scene(1, &random, &sum);
     ck_assert_msg(sum.apart + sum.cut > 0 && sum.bounded > 0, "%d apart, %d cut, %d bounded",
                   sum.apart, sum.cut, sum.bounded);
 }
@@ -389,7 +389,7 @@ START_TEST(points_are_where_the_course_says)
 {
     uint64_t random = suite_seed();
     int still = 0, spins = 0, slides = 0;
-    for (int n = 0; n < suite_times_at_least(SCENES); ++n) {
+    for (int n = 0; n < suite_times_from(SCENES, SCENES / 3); ++n) {
         trial y;
         surface_course course;
         trial_begin(&y, &random);
@@ -482,7 +482,7 @@ START_TEST(no_point_is_beyond_what_a_surface_sweeps)
 {
     uint64_t random = suite_seed();
     int hoops[2] = {0, 0}, near = 0;
-    for (int n = 0; n < suite_times_at_least(SCENES); ++n) {
+    for (int n = 0; n < suite_times_from(SCENES, SCENES / 3); ++n) {
         trial y;
         trial_begin(&y, &random);
         for (int side = 0; side < 2; ++side) judge_shadow(&y, side, &random, hoops, &near);
