@@ -338,12 +338,15 @@ tools_libverify_la_SOURCES = \
     tools/verify/input.c tools/verify/input.h \
     tools/verify/jumps.c tools/verify/jumps.h \
     tools/verify/look.c tools/verify/look.h \
+    tools/verify/motion_internal.h tools/verify/motion_affine.c \
     tools/verify/motion.c tools/verify/motion.h \
+    tools/verify/motion_form.c tools/verify/motion_rigid.c \
     tools/verify/mpfi_functions.c \
     tools/verify/net.c tools/verify/net.h \
     tools/verify/net_formula.c tools/verify/net_internal.h \
     tools/verify/net_jets.c \
     tools/verify/meridian.c tools/verify/meridian.h \
+    tools/verify/round_guess.c \
     tools/verify/round.c tools/verify/round.h \
     tools/verify/shadow.c tools/verify/shadow.h \
     tools/verify/cloud.c tools/verify/cloud.h \
