@@ -188,10 +188,12 @@ static imp_code try_start(impact *im, pair *p, const distance_outcome *distances
 
 /* Whether a contact is to be sought widely at the start of the pair's window. Surfaces that cross
  * there from the beginning would else be divided until their remainders are below gamma, in an
- * order that ties decide. Each candidate pair has a count of its own, in the order in which its
- * pairs are expanded, so that the parts of a divided query seek at the same pairs as the whole. Not
- * where gamma_clear is nearly gamma, as for a required distance: there the bounds themselves tell
- * soon, and contradict a type that lies. */
+ * order that ties decide. Windows then start where those of half as many pairs before did: where
+ * starts move on, such a search, which costs as much as a hundred pairs, is left out. Each
+ * candidate pair has a count of its own, in the order in which its pairs are expanded, so that the
+ * parts of a divided query seek at the same pairs as the whole. Not where gamma_clear is nearly
+ * gamma, as for a required distance: there the bounds themselves tell soon, and contradict a type
+ * that lies. */
 static bool is_wide_search_due(const impact *im, const pair *p)
 {
     if (im->upper.has_nets || im->trials == NULL || im->spread != NULL) return false;
@@ -199,9 +201,13 @@ static bool is_wide_search_due(const impact *im, const pair *p)
     pair_trials *trials = &im->trials[p->candidate_pair];
     trials->popped += 1;
     if (trials->next_wide == 0) trials->next_wide = TUNING_WIDE_FIRST;
+    if (2 * trials->popped == (uint32_t)TUNING_WIDE_FIRST) trials->start = p->window.lo;
     if (trials->popped < trials->next_wide) return false;
+    const double later = TUNING_WIDE_LATER * (im->window.hi - im->window.lo);
+    const bool stands = trials->popped == 1 || !(p->window.lo - trials->start > later);
     trials->next_wide = trials->popped + trials->popped / TUNING_WIDE_SHARE + 1;
-    return true;
+    trials->start = p->window.lo;
+    return stands;
 }
 
 /* Keeps the contact that ends the search. If a smaller gamma is asked for, a contact is sought

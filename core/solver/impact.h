@@ -48,6 +48,7 @@ typedef struct pair_trials {
     trial_rate turning; /* turning axes, in all tests except the roots' (separation.h) */
     trial_rate sliding; /* distances where axes separate nodes whose parents slid (distance.h) */
     uint32_t popped, next_wide; /* pairs without nets; the count that the next wide search awaits */
+    double start;               /* of the window, about half as many pairs before that count */
 } pair_trials;
 
 typedef struct impact {
