@@ -16,6 +16,16 @@ place place_argument(const place *up, const char *name)
     return (place){.up = up, .key = name, .argument = true};
 }
 
+place place_named(const place *up, const char *noun, const char *name)
+{
+    return (place){.up = up, .key = name, .argument = true, .noun = noun};
+}
+
+place place_counted(const place *up, const char *noun, size_t index)
+{
+    return (place){.up = up, .index = index, .argument = true, .noun = noun};
+}
+
 place place_key(const place *up, const char *key) { return (place){.up = up, .key = key}; }
 
 place place_index(const place *up, size_t index) { return (place){.up = up, .index = index}; }
@@ -40,7 +50,11 @@ static void append_place(char *text, const place *at)
         const char *joint = at->up->document ? ": /" : at->up->argument ? ": " : "/";
         text_append(text, PLACE_TEXT, "%s", joint);
     }
-    if (at->key == NULL)
+    if (at->noun != NULL && at->key != NULL)
+        text_append(text, PLACE_TEXT, "%s '%.80s'", at->noun, at->key);
+    else if (at->noun != NULL)
+        text_append(text, PLACE_TEXT, "%s %zu", at->noun, at->index);
+    else if (at->key == NULL)
         text_append(text, PLACE_TEXT, "%zu", at->index);
     else if (at->document || at->argument)
         text_append(text, PLACE_TEXT, "%s", at->key);

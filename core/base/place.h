@@ -17,8 +17,9 @@ typedef struct place {
     const struct place *up; /* NULL: the outermost */
     const char *key;        /* NULL: `index` counts */
     size_t index;
-    bool document; /* a whole document: below it, JSON pointers */
-    bool argument; /* an argument, or a stage of it: below it, words */
+    bool document;    /* a whole document: below it, JSON pointers */
+    bool argument;    /* an argument, or a stage of it: below it, words */
+    const char *noun; /* of an argument that is named or counted, "body" or "surface"; else NULL */
 } place;
 
 /* Makes the place of a document called `name`. */
@@ -26,6 +27,11 @@ place place_document(const char *name);
 
 /* Makes the place of an argument called `name` or, with `up`, of a stage of that argument. */
 place place_argument(const place *up, const char *name);
+
+/* Make places of arguments that only an error writes: "body 'NAME'", of which 80 bytes, and
+ * "surface 2". The name is not copied. */
+place place_named(const place *up, const char *noun, const char *name);
+place place_counted(const place *up, const char *noun, size_t index);
 
 /* Makes the place of the member `key`, or element `index`, of what stands at `up`. */
 place place_key(const place *up, const char *key);

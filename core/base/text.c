@@ -160,6 +160,13 @@ bool text_fifteen_digits(char to[TEXT_SHORT + 1], double x)
     return true;
 }
 
+bool text_of_fifteen(char *to, size_t size, double x)
+{
+    if (size > TEXT_SHORT && text_fifteen_digits(to, x)) return true;
+    const int length = snprintf(to, size, "%.15g", x);
+    return length >= 0 && (size_t)length < size;
+}
+
 /* Lemma. Let m < 10^15 be whole and k <= 19, so that m and 10^k are doubles (10^19 = 2^19 5^19, and
  * 5^19 < 2^53), and let their quotient round to x. Decimals of 15 digits are farther apart than
  * doubles, so that the one nearest to x is m / 10^k, which "%.15g" writes. */

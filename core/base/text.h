@@ -36,7 +36,10 @@ void text_append(char *buffer, size_t size, const char *format, ...)
 enum { TEXT_SHORT = 24 };
 bool text_fifteen_digits(char to[TEXT_SHORT + 1], double x);
 
-/* Does so only where the text reads back as x. */
+/* Writes x as "%.15g" does. False: it takes more than size - 1 characters. */
+bool text_of_fifteen(char *to, size_t size, double x);
+
+/* Does what text_fifteen_digits does only where the text reads back as x. */
 bool text_short_number(char to[TEXT_SHORT + 1], double x);
 
 /* Writes the shortest decimal that reads back as x, with a point in every locale. */

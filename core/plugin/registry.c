@@ -95,6 +95,8 @@ worker_pool *registry_isolation(const imp_registry *registry, const char *name)
     return isolates(registry, name) ? registry->workers : NULL;
 }
 
+bool registry_has_isolated(const imp_registry *registry) { return registry->workers != NULL; }
+
 /* The first name of a list ",a,b," that is not the name of a type, copied to `name`; false: all
  * are. */
 static bool unknown_name(const imp_registry *r, const char *list, char name[TEXT_NAME_MAX + 1])

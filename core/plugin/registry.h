@@ -40,6 +40,9 @@ const char *registry_find_file(const imp_registry *registry, imp_type_kind kind,
 /* Returns the pool in which instances of that type are isolated; NULL: they are not. */
 worker_pool *registry_isolation(const imp_registry *registry, const char *name);
 
+/* Whether any type is, or was, to be isolated: then instances may be of stand-ins' types. */
+bool registry_has_isolated(const imp_registry *registry);
+
 /* Why a name may be unknown: "; 2 files were left out, such as '/a/b.so': <reason>", or "" if none
  * was. A file called NAME.so comes first. */
 typedef struct registry_text {

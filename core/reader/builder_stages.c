@@ -16,11 +16,12 @@
 static imp_code make(imp_builder *b, const char *type, const imp_argument *arguments, size_t count,
                      const place *at, shared_instance **made, imp_error *error)
 {
+    const type_choice choice = {IMP_TYPE_SURFACE, type, NULL};
     json_t *object;
     imp_code code = IMP_SUCCESS;
     if (type != NULL)
-        code = scene_build_numbers(&b->bodies.instances.source, IMP_TYPE_SURFACE, type, arguments,
-                                   count, at, made, error);
+        code = scene_build_numbers(&b->bodies.instances.source, &choice, arguments, count, at, made,
+                                   error);
     if (code != IMP_SUCCESS || *made != NULL) return code;
     code = arguments_to_json(type, arguments, count, at, &object, error);
     if (code != IMP_SUCCESS) return code;

@@ -71,31 +71,37 @@ static imp_code read_type(const json_t *object, imp_type_kind kind, const place 
 
 /* --- Creating --------------------------------------------------------------------------------- */
 
-static imp_code blame(const char *file, const type_view *view, const char *what, const place *at,
-                      imp_error *error)
+const char *scene_making_file(const scene_making *m)
 {
-    return place_error(at, error, IMP_ERROR_PLUGIN, "%s: bug in plugin type '%s' (%s)", what,
-                       view->name, file);
+    const imp_type_kind kind = m->instance.surface != NULL ? IMP_TYPE_SURFACE : IMP_TYPE_MAP;
+    return registry_find_file(m->source->registry, kind, m->view.name);
 }
 
-static imp_code judge_failure(imp_status status, const type_view *view, const char *file,
-                              const parameter_values *values, imp_create_error *why,
+static imp_code blame(const scene_making *m, const char *what, const place *at, imp_error *error)
+{
+    return place_error(at, error, IMP_ERROR_PLUGIN, "%s: bug in plugin type '%s' (%s)", what,
+                       m->view.name, scene_making_file(m));
+}
+
+static imp_code judge_failure(imp_status status, const scene_making *m, imp_create_error *why,
                               const place *at, imp_error *error)
 {
+    const type_view *view = &m->view;
     if (status > IMP_STATUS_INTERNAL) {
         const char *callback;
         active_callback_last(&callback);
         place_error(at, error, IMP_ERROR_PLUGIN, "%s of '%s' (%s) %s%s%s", callback, view->name,
-                    file, surface_status_text(status), why->text[0] != '\0' ? ": " : "", why->text);
+                    scene_making_file(m), surface_status_text(status),
+                    why->text[0] != '\0' ? ": " : "", why->text);
         return surface_set_code(status, error);
     }
     if (status == IMP_STATUS_PARAMETER)
-        return parameters_create_error(&view->table, values, why, at, error);
+        return parameters_create_error(&view->table, &m->values, why, at, error);
     char what[360];
     why->text[sizeof why->text - 1] = '\0';
     snprintf(what, sizeof what, "create failed with status %d%s%s", (int)status,
              why->text[0] ? ", " : "", why->text);
-    return blame(file, view, what, at, error);
+    return blame(m, what, at, error);
 }
 
 /* A complaint, and marks on either side that show when create writes beyond it. */
@@ -191,21 +197,19 @@ static imp_code run_create(scene_making *m, const place *at, scene_build_note *n
     if (call != NULL) active_callback_end(call);
     bool kept = fp_mode_kept(before);
     if (!is_whole(&g))
-        return blame(m->file, view, "create wrote beyond the imp_create_error it was given", at,
-                     error);
+        return blame(m, "create wrote beyond the imp_create_error it was given", at, error);
     if (status == IMP_STATUS_INTERNAL && reading_budget_is_over(m->budget))
         return reading_budget_refuse(m->budget, at, error);
-    if (status != IMP_STATUS_OK)
-        return judge_failure(status, view, m->file, &m->values, &g.why, at, error);
+    if (status != IMP_STATUS_OK) return judge_failure(status, m, &g.why, at, error);
     if (*self == NULL)
-        return blame(m->file, view, "create returned IMP_STATUS_OK without an instance", at, error);
+        return blame(m, "create returned IMP_STATUS_OK without an instance", at, error);
     if (note != NULL && g.why.note_count > 0) take_note(&view->table, &g.why, note);
     if (note != NULL) note->is_repeatable = g.why.is_repeatable == 1;
     if (kept) return IMP_SUCCESS;
     view->destroy(*self);
     *self = NULL;
     fp_mode_kept(before);
-    return blame(m->file, view, "create changed the mode of arithmetic", at, error);
+    return blame(m, "create changed the mode of arithmetic", at, error);
 }
 
 /* Lets the plugin refill an instance. False: create has to make one, and says what is wrong. */
@@ -266,11 +270,9 @@ static bool isolate(worker_pool *workers, imp_instance *i, isolated **stand_in)
     return true;
 }
 
-/* Notes the file of the type that *m has, and isolates it if the registry says so. */
-static imp_code take_type(const imp_registry *registry, imp_type_kind kind, scene_making *m,
-                          imp_error *error)
+/* Isolates the type that *m has if the registry says so. */
+static imp_code take_type(const imp_registry *registry, scene_making *m, imp_error *error)
 {
-    m->file = registry_find_file(registry, kind, m->view.name);
     worker_pool *workers = registry_isolation(registry, m->view.name);
     if (workers != NULL && !isolate(workers, &m->instance, &m->stand_in))
         return error_set_memory(error);
@@ -299,7 +301,7 @@ static imp_code find_type(const imp_registry *registry, imp_type_kind kind, cons
     if (code != IMP_SUCCESS) return code;
     const place where = at->argument ? *at : place_key(at, "type");
     if (!look_up(registry, kind, name, m)) return refuse_type(registry, kind, name, &where, error);
-    return take_type(registry, kind, m, error);
+    return take_type(registry, m, error);
 }
 
 static bool allows(void *budget, uint64_t bytes) { return reading_budget_allows(budget, bytes); }
@@ -318,16 +320,28 @@ imp_code scene_making_begin(scene_making *m, const scene_source *source, imp_typ
     return code;
 }
 
-imp_code scene_making_begin_numbers(scene_making *m, const scene_source *source, imp_type_kind kind,
-                                    const char *type, const imp_argument *arguments, size_t count,
-                                    const place *at, imp_error *error)
+/* Takes the type that an instance has, or looks its name up. False: there is no such type. */
+static bool choose(const imp_registry *registry, const type_choice *type, scene_making *m)
+{
+    const shared_instance *like = type->like;
+    if (like == NULL || like->inner != NULL || registry_has_isolated(registry))
+        return look_up(registry, type->kind, type->name, m);
+    m->instance = (imp_instance){.surface = like->surface, .map = like->map};
+    m->view =
+        like->surface != NULL ? type_view_of_surface(like->surface) : type_view_of_map(like->map);
+    return true;
+}
+
+imp_code scene_making_begin_numbers(scene_making *m, const scene_source *source,
+                                    const type_choice *type, const imp_argument *arguments,
+                                    size_t count, const place *at, imp_error *error)
 {
     *m = (scene_making){.source = source, .budget = source->budget};
-    if (!look_up(source->registry, kind, type, m)) return IMP_SUCCESS;
+    if (!choose(source->registry, type, m)) return IMP_SUCCESS;
     imp_code code = parameter_numbers_read(&m->view.table, arguments, count,
                                            registry_store(source->registry), at, &m->values, error);
     if (code != IMP_SUCCESS || m->values.value == NULL) return code;
-    code = take_type(source->registry, kind, m, error);
+    code = take_type(source->registry, m, error);
     if (code != IMP_SUCCESS) parameters_clear(&m->values);
     return code;
 }

@@ -36,11 +36,18 @@ typedef struct scene_source {
 imp_code scene_build_shared(const scene_source *source, imp_type_kind kind, const json_t *object,
                             const place *at, shared_instance **made, imp_error *error);
 
-/* Makes the surface, without maps, or the map that a type's name and typed arguments ask for,
- * without the object that a scene file would have: the same instance, from the same numbers. *made
- * NULL: it makes none, because an argument is not numbers, or not as the type's table says; then
- * the object has to be made, which tells what is wrong. */
-imp_code scene_build_numbers(const scene_source *source, imp_type_kind kind, const char *type,
+/* A type, by its name. */
+typedef struct type_choice {
+    imp_type_kind kind;
+    const char *name;
+    const shared_instance *like; /* an instance of it, made by the same registry; NULL: none */
+} type_choice;
+
+/* Makes the surface, without maps, or the map that a type and typed arguments ask for, without the
+ * object that a scene file would have: the same instance, from the same numbers. *made NULL: it
+ * makes none, because an argument is not numbers, or not as the type's table says; then the object
+ * has to be made, which tells what is wrong. */
+imp_code scene_build_numbers(const scene_source *source, const type_choice *type,
                              const imp_argument *arguments, size_t count, const place *at,
                              shared_instance **made, imp_error *error);
 
@@ -55,7 +62,6 @@ imp_code scene_build_instance(const scene_source *source, imp_type_kind kind, co
 typedef struct scene_making {
     imp_instance instance; /* its `self` is NULL until create has made it */
     type_view view;
-    const char *file;           /* of the plugin */
     isolated *stand_in;         /* NULL: it is not isolated */
     const scene_source *source; /* outlives it */
     reading_budget *budget;     /* NULL: no limits */
@@ -79,9 +85,12 @@ imp_code scene_making_begin(scene_making *m, const scene_source *source, imp_typ
 /* Finds the type and reads the values, which are numbers, from typed arguments.
  * m->values.value NULL: they do not fit (parameter_numbers_read); then, and if it fails, there is
  * nothing to clear. */
-imp_code scene_making_begin_numbers(scene_making *m, const scene_source *source, imp_type_kind kind,
-                                    const char *type, const imp_argument *arguments, size_t count,
-                                    const place *at, imp_error *error);
+imp_code scene_making_begin_numbers(scene_making *m, const scene_source *source,
+                                    const type_choice *type, const imp_argument *arguments,
+                                    size_t count, const place *at, imp_error *error);
+
+/* Returns the file of the plugin that the type comes from. */
+const char *scene_making_file(const scene_making *m);
 
 /* Refills m->again or, if it is NULL or does not take these values, calls create, and m->again is
  * NULL; the caller then owns m->instance. `note` may be NULL. */

@@ -97,9 +97,23 @@ static shared_instance *new_or_renewed(scene_making *m)
                                        : instance_of_map(m->instance.map, m->instance.self);
 }
 
-/* Finishes the instance, and takes over what the note holds. It was made from numbers and texts of
- * so many bytes. */
-static imp_code share(scene_making *m, scene_build_note *note, size_t bytes, const char *label,
+/* What an instance is made from, in words: a label, or arguments that are all numbers. */
+typedef struct made_from {
+    const char *label; /* NULL: the arguments */
+    const imp_argument *arguments;
+    size_t count;
+    size_t bytes; /* of the numbers and texts */
+} made_from;
+
+/* False: no memory. */
+static bool set_label(shared_instance *p, const scene_making *m, const made_from *from)
+{
+    if (from->label != NULL) return instance_set_label(p, from->label);
+    return scene_label_arguments(p, &m->view.table, from->arguments, from->count);
+}
+
+/* Finishes the instance, and takes over what the note holds. */
+static imp_code share(scene_making *m, scene_build_note *note, const made_from *from,
                       const place *at, shared_instance **made, imp_error *error)
 {
     shared_instance *p = new_or_renewed(m);
@@ -108,29 +122,29 @@ static imp_code share(scene_making *m, scene_build_note *note, size_t bytes, con
         return error_set_memory(error);
     }
     p->numbers = note->numbers;
-    p->given = bytes + (size_t)note->bytes;
+    p->given = from->bytes + (size_t)note->bytes;
     const bool noted =
         (note->count == 0 || instance_set_note(p, note->count, note->text)) && describe(p, m);
-    if (noted && p->breach == IMP_STATUS_OK && instance_set_label(p, label)) {
+    if (noted && p->breach == IMP_STATUS_OK && set_label(p, m, from)) {
         *made = p;
         return IMP_SUCCESS;
     }
     imp_code code = error_set_memory(error);
     if (p->breach != IMP_STATUS_OK)
-        code = place_error(at, error, IMP_ERROR_PLUGIN, "'%s' (%s) %s", m->view.name, m->file,
-                           surface_status_of_last(p->breach).text);
+        code = place_error(at, error, IMP_ERROR_PLUGIN, "'%s' (%s) %s", m->view.name,
+                           scene_making_file(m), surface_status_of_last(p->breach).text);
     instance_release(p);
     return code;
 }
 
-static imp_code make(scene_making *m, size_t bytes, const char *label, const place *at,
+static imp_code make(scene_making *m, const made_from *from, const place *at,
                      shared_instance **made, bool *is_repeatable, imp_error *error)
 {
     scene_build_note note = {.count = 0};
     if (m->again != NULL) note.numbers = instance_take_numbers(m->again);
     const imp_code code = scene_making_create(m, at, &note, error);
     *is_repeatable = note.is_repeatable;
-    if (code == IMP_SUCCESS) return share(m, &note, bytes, label, at, made, error);
+    if (code == IMP_SUCCESS) return share(m, &note, from, at, made, error);
     free(note.numbers.number);
     return code;
 }
@@ -154,7 +168,10 @@ static imp_code find_or_make(kept_instances *kept, scene_making *m, const json_t
     kept_key key = key_of(m, label);
     *made = kept_instances_find(kept, &key);
     imp_code code = IMP_SUCCESS;
-    if (*made == NULL) code = make(m, bytes_given(object), label, at, made, &is_repeatable, error);
+    if (*made == NULL) {
+        const made_from from = {.label = label, .bytes = bytes_given(object)};
+        code = make(m, &from, at, made, &is_repeatable, error);
+    }
     if (code == IMP_SUCCESS && is_repeatable && key.bytes != NULL) {
         kept_key now = key_of(m, label);
         kept_instances_add(kept, &key, &now, *made);
@@ -192,23 +209,21 @@ imp_code scene_build_shared(const scene_source *source, imp_type_kind kind, cons
 }
 
 /* The registry keeps instances of files; one made from numbers alone is of none. */
-imp_code scene_build_numbers(const scene_source *source, imp_type_kind kind, const char *type,
+imp_code scene_build_numbers(const scene_source *source, const type_choice *type,
                              const imp_argument *arguments, size_t count, const place *at,
                              shared_instance **made, imp_error *error)
 {
     scene_making m;
-    char label[INSTANCE_LABEL_MAX];
     bool is_repeatable;
     *made = NULL;
-    imp_code code = scene_making_begin_numbers(&m, source, kind, type, arguments, count, at, error);
+    imp_code code = scene_making_begin_numbers(&m, source, type, arguments, count, at, error);
     if (code != IMP_SUCCESS || m.values.value == NULL) return code;
-    size_t bytes = strlen(type);
+    made_from from = {.arguments = arguments, .count = count, .bytes = strlen(type->name)};
     for (size_t k = 0; k < count; ++k)
-        bytes += parameter_numbers_count(&arguments[k]) * sizeof(double);
-    scene_label_arguments(label, type, arguments, count);
+        from.bytes += parameter_numbers_count(&arguments[k]) * sizeof(double);
     if (source->scene != NULL && m.view.renew != NULL && m.stand_in == NULL)
-        m.again = scene_take_spare(source->scene, m.instance.surface, m.instance.map, bytes);
-    code = make(&m, bytes, label, at, made, &is_repeatable, error);
+        m.again = scene_take_spare(source->scene, m.instance.surface, m.instance.map, from.bytes);
+    code = make(&m, &from, at, made, &is_repeatable, error);
     scene_making_clear(&m);
     return code;
 }

@@ -2,48 +2,12 @@
  * SPDX-License-Identifier: Apache-2.0 */
 #include <config.h>
 
-#include <assert.h>
-#include <string.h>
-
 #include "core/base/fp_mode.h"
-#include "core/base/text.h"
 #include "core/reader/arguments.h"
 #include "core/reader/scene_build.h"
 #include "core/scene/scene_change.h"
 
 /* A scene whose numbers change: one instance is made anew, as a builder makes it. */
-
-/* Where a change is made, in words. They are made for every change and read after few: without
- * printf, which would take a tenth of a small one. */
-typedef struct stage_words {
-    char at[200];
-    size_t length;
-} stage_words;
-
-static void add_words(stage_words *to, const char *text, size_t most)
-{
-    const size_t length = strnlen(text, most);
-    assert(to->length + length < sizeof to->at);
-    memcpy(to->at + to->length, text, length);
-    to->length += length;
-    to->at[to->length] = '\0';
-}
-
-static void add_number(stage_words *to, const char *what, size_t k)
-{
-    add_words(to, what, SIZE_MAX);
-    add_words(to, text_of_number((double)k).at, SIZE_MAX);
-}
-
-static stage_words words_of(const imp_scene *scene, scene_stage at)
-{
-    stage_words words = {.length = 0};
-    add_words(&words, "body '", SIZE_MAX);
-    add_words(&words, imp_scene_body_name(scene, at.body), 80);
-    add_words(&words, "'", 1);
-    if (at.surface != SIZE_MAX) add_number(&words, ": surface ", at.surface);
-    return words;
-}
 
 static imp_code refuse_stage(const imp_scene *scene, scene_stage at, imp_error *error)
 {
@@ -56,8 +20,12 @@ static imp_code refuse_stage(const imp_scene *scene, scene_stage at, imp_error *
         return error_set(error, IMP_ERROR_USAGE, "body '%.80s' has no surface %zu, but %zu",
                          imp_scene_body_name(scene, at.body), at.surface,
                          scene_surface_count(scene, at.body));
-    return error_set(error, IMP_ERROR_USAGE, "%s has no map %zu of its own", words_of(scene, at).at,
-                     at.map);
+    const char *name = imp_scene_body_name(scene, at.body);
+    if (at.surface == SIZE_MAX)
+        return error_set(error, IMP_ERROR_USAGE, "body '%.80s' has no map %zu of its own", name,
+                         at.map);
+    return error_set(error, IMP_ERROR_USAGE, "body '%.80s': surface %zu has no map %zu of its own",
+                     name, at.surface, at.map);
 }
 
 /* Whether the scene can be changed at all, and there. */
@@ -83,8 +51,9 @@ static imp_code make(imp_scene *scene, const shared_instance *like, const imp_ar
         .registry = scene_registry(scene), .files = scene_files_of(scene), .scene = scene};
     const imp_type_kind kind = like->surface != NULL ? IMP_TYPE_SURFACE : IMP_TYPE_MAP;
     const char *type = kind == IMP_TYPE_SURFACE ? like->surface->name : like->map->name;
+    const type_choice choice = {kind, type, like};
     json_t *object;
-    imp_code code = scene_build_numbers(&source, kind, type, arguments, count, at, made, error);
+    imp_code code = scene_build_numbers(&source, &choice, arguments, count, at, made, error);
     if (code != IMP_SUCCESS || *made != NULL) return code;
     code = arguments_to_json(type, arguments, count, at, &object, error);
     if (code != IMP_SUCCESS) return code;
@@ -101,14 +70,13 @@ FP_APART static imp_code set_values(imp_scene *scene, scene_stage at, const imp_
 {
     imp_code code = check(scene, at, error);
     if (code != IMP_SUCCESS) return code;
-    const stage_words words = words_of(scene, at);
-    stage_words map_words = {.length = 0};
-    if (at.map != SIZE_MAX) add_number(&map_words, "map ", at.map);
-    const place whole = place_argument(NULL, words.at);
-    const place of_map = place_argument(&whole, map_words.at);
+    const place body = place_named(NULL, "body", imp_scene_body_name(scene, at.body));
+    const place of_surface = place_counted(&body, "surface", at.surface);
+    const place *whole = at.surface != SIZE_MAX ? &of_surface : &body;
+    const place map = place_counted(whole, "map", at.map);
     shared_instance *made = NULL;
     code = make(scene, scene_stage_at(scene, at), arguments, count,
-                at.map != SIZE_MAX ? &of_map : &whole, &made, error);
+                at.map != SIZE_MAX ? &map : whole, &made, error);
     if (code != IMP_SUCCESS) return code;
     shared_instance *equal = made->map != NULL ? scene_equal_map(scene, made) : NULL;
     shared_instance *old = instance_hold(scene_stage_at(scene, at));

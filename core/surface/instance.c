@@ -181,7 +181,8 @@ shared_instance *instance_renewed(shared_instance *p)
     assert(p->holders == 1 && p->inner == NULL && p->numbers.number == NULL);
     instance_clear_shelf(p);
     free(p->note);
-    p->note = NULL;
+    free(p->label);
+    p->note = p->label = NULL;
     p->note_count = 0;
     p->breach = IMP_STATUS_OK;
     if (p->surface != NULL) return take_surface(p);
@@ -201,10 +202,16 @@ shared_instance *instance_of_map(const imp_map_type *type, void *self)
     return p;
 }
 
+/* Digits of a label take about twice the bytes of the numbers. */
+static size_t bytes_of_label(const shared_instance *p)
+{
+    return p->given < INSTANCE_LABEL_MAX / 2 ? 2 * p->given : INSTANCE_LABEL_MAX;
+}
+
 size_t instance_bytes(const shared_instance *p)
 {
     const instance_description *of = p->description;
-    return sizeof *p + p->given + p->label_size + 4 * INSTANCE_BLOCK +
+    return sizeof *p + p->given + bytes_of_label(p) + 4 * INSTANCE_BLOCK +
            p->numbers.count * sizeof *p->numbers.number +
            (of != NULL ? sizeof *of + of->size + INSTANCE_BLOCK : 0) +
            p->piece_count * (sizeof *p->pieces + INSTANCE_PIECE);
@@ -236,6 +243,7 @@ void instance_release(shared_instance *p)
         destroy(p->map->name, p->map->destroy, p->self);
     free(p->pieces);
     free(p->label);
+    free(p->named.at);
     free(p->note);
     free(p->numbers.number);
     free(p->description);

@@ -46,6 +46,19 @@ typedef struct instance_description {
     unsigned char bytes[];
 } instance_description;
 
+/* An argument that the label of an instance shows when it is read. */
+typedef struct label_argument {
+    const char *name; /* outlives the instance */
+    size_t count;     /* of its numbers; 0: its value is too long, or rows, and shown as dots */
+} label_argument;
+
+/* What a label is written from: the arguments, and the numbers of all of them. */
+typedef struct label_arguments {
+    label_argument *at; /* `count` of them; the numbers follow */
+    size_t count;
+    size_t room; /* bytes there */
+} label_arguments;
+
 typedef struct shared_instance {
     const imp_surface_type *surface; /* NULL: it is a map */
     const imp_map_type *map;         /* NULL: it is a surface */
@@ -59,9 +72,8 @@ typedef struct shared_instance {
     imp_status breach;   /* other than IMP_STATUS_OK: its domain breaks the ABI, only release it */
     uint32_t clock;      /* if there is an `inner`: the index of its parameter in the scene */
     size_t given;        /* bytes of the values and files it was made from, about what it keeps */
-    char *label; /* as on a command line, shortened: "sphere radius=2"; NULL: its type's name */
-    size_t label_size;     /* bytes, including the final NUL */
-    size_t label_room;     /* bytes there, at least as many */
+    char *label; /* as on a command line, shortened: "sphere radius=2"; NULL: write it when read */
+    label_arguments named; /* from these, behind its type's name */
     uint64_t note_count;   /* number of items that create left out or reinterpreted; 0: no note */
     char *note;            /* the items, with the parameter's name; NULL: none */
     fixed_numbers numbers; /* for its formula */
@@ -92,9 +104,25 @@ imp_status instance_domain(const imp_surface_type *type, const void *self, doubl
 /* Appends text to a label, or dots where the label is full. */
 void instance_label_add(char label[INSTANCE_LABEL_MAX], const char *text);
 
+/* One parameter of a label, " radius=2": it begins with the name, of which 40 bytes; the value is
+ * written to `at` + `head`; it ends with "..." in the value's place where that does not fit. */
+enum { LABEL_PART_MAX = 120 };
+typedef struct label_part {
+    char at[LABEL_PART_MAX];
+    size_t head;
+} label_part;
+void label_part_begin(label_part *part, const char *name);
+void label_part_end(label_part *part, bool fits, char label[INSTANCE_LABEL_MAX]);
+
 /* Copies the label, once. False: no memory. */
 bool instance_set_label(shared_instance *p, const char label[INSTANCE_LABEL_MAX]);
-const char *instance_label(const shared_instance *p);
+
+/* Makes room for what a label is to be written from; *number is where the numbers go. An instance
+ * that is filled again has its room already. False: no memory. */
+bool instance_name_arguments(shared_instance *p, size_t count, size_t numbers, double **number);
+
+/* Writes the label. */
+void instance_label(const shared_instance *p, char label[INSTANCE_LABEL_MAX]);
 
 /* Copies a note of create, once: `count` items, described by the text. False: no memory. */
 bool instance_set_note(shared_instance *p, uint64_t count, const char *text);
@@ -113,7 +141,7 @@ bool fixed_numbers_copy(fixed_numbers *to, const imp_parameter *rows, size_t row
                         size_t stride, const imp_value *values);
 
 /* Estimates the bytes of the instance and of what create made, including the allocator's overhead
- * per block. */
+ * per block. Two that were made of equal values, as text or as numbers, have as many. */
 enum {
     INSTANCE_BLOCK = 16, /* bytes */
     INSTANCE_PIECE = 96  /* bytes that a type keeps of one piece, as mesh does in growing arrays */

@@ -7,6 +7,8 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "core/base/text.h"
+
 /* What an instance is called, what its create remarked, and what it was made from. */
 
 /* --- Labels ----------------------------------------------------------------------------------- */
@@ -23,24 +25,74 @@ void instance_label_add(char label[INSTANCE_LABEL_MAX], const char *text)
 
 bool instance_set_label(shared_instance *p, const char label[INSTANCE_LABEL_MAX])
 {
-    const size_t size = strlen(label) + 1;
-    if (p->label_room < size) { /* one that is used again may get any label */
-        const size_t room = p->label != NULL ? INSTANCE_LABEL_MAX : size;
-        free(p->label);
-        p->label = malloc(room);
-        p->label_room = p->label != NULL ? room : 0;
+    p->label = strdup(label);
+    return p->label != NULL;
+}
+
+void label_part_begin(label_part *part, const char *name)
+{
+    enum { MOST = 40 };
+    const size_t length = strnlen(name, MOST);
+    part->at[0] = ' ';
+    memcpy(part->at + 1, name, length);
+    memcpy(part->at + 1 + length, "=", 2);
+    part->head = length + 2;
+}
+
+void label_part_end(label_part *part, bool fits, char label[INSTANCE_LABEL_MAX])
+{
+    if (!fits) memcpy(part->at + part->head, "...", 4);
+    instance_label_add(label, part->at);
+}
+
+bool instance_name_arguments(shared_instance *p, size_t count, size_t numbers, double **number)
+{
+    label_arguments *to = &p->named;
+    const size_t of_arguments = count * sizeof *to->at;
+    const size_t wanted = of_arguments + numbers * sizeof **number;
+    if (to->at == NULL || to->room < wanted) {
+        free(to->at);
+        *to = (label_arguments){.at = malloc(wanted + (wanted == 0)), .room = wanted};
+        if (to->at == NULL) return false;
     }
-    if (p->label == NULL) return false;
-    memcpy(p->label, label, size);
-    p->label_size = size;
+    to->count = count;
+    *number = (void *)((char *)to->at + of_arguments);
     return true;
 }
 
-const char *instance_label(const shared_instance *p)
+/* Writes numbers as they would stand on a command line: 1,0,0. False: they are too long for that,
+ * or there are none. */
+static bool write_numbers(label_part *part, const double *number, size_t count)
 {
-    if (p->label != NULL) return p->label;
-    if (p->inner != NULL) return instance_label(p->inner);
-    return p->surface != NULL ? p->surface->name : p->map->name;
+    size_t used = part->head;
+    for (size_t k = 0; k < count; ++k) {
+        if (k > 0 && used + 1 < sizeof part->at) part->at[used++] = ',';
+        if (!text_of_fifteen(part->at + used, sizeof part->at - used, number[k])) return false;
+        used += strlen(part->at + used);
+    }
+    return count > 0;
+}
+
+static void add_arguments(const label_arguments *named, char label[INSTANCE_LABEL_MAX])
+{
+    const double *number = (const void *)(named->at + named->count);
+    for (size_t k = 0; k < named->count; ++k) {
+        label_part part;
+        label_part_begin(&part, named->at[k].name);
+        const bool fits = write_numbers(&part, number, named->at[k].count);
+        label_part_end(&part, fits, label);
+        number += named->at[k].count;
+    }
+}
+
+void instance_label(const shared_instance *p, char label[INSTANCE_LABEL_MAX])
+{
+    while (p->inner != NULL) p = p->inner;
+    label[0] = '\0';
+    instance_label_add(label, p->label != NULL     ? p->label
+                              : p->surface != NULL ? p->surface->name
+                                                   : p->map->name);
+    if (p->label == NULL && p->named.count > 0) add_arguments(&p->named, label);
 }
 
 /* --- Notes ------------------------------------------------------------------------------------ */

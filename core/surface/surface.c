@@ -202,9 +202,10 @@ static void label_of(const surface *s, char label[INSTANCE_LABEL_MAX])
     const surface *whole = s->outer != NULL ? s->outer : s;
     label[0] = '\0';
     for (size_t k = 0; k <= whole->map_count; ++k) {
+        char own[INSTANCE_LABEL_MAX];
         if (k > 0) instance_label_add(label, " ! ");
-        instance_label_add(label,
-                           instance_label(k == 0 ? whole->origin : whole->maps[k - 1].origin));
+        instance_label(k == 0 ? whole->origin : whole->maps[k - 1].origin, own);
+        instance_label_add(label, own);
     }
 }
 
