@@ -134,8 +134,9 @@ static void state_at(const linear_form *f, linear_state *s)
                  vec3_scale(vec3_add(f->by[SECOND], vec3_scale(f->by[BOTH], s->x[0])), s->x[1]));
 }
 
-/* A search ends once a step moves no unknown by this; steps converge quadratically. Half-widths. */
-static const double CONVERGED = 0x1p-24;
+/* A search ends once a step moves no unknown by this, in half-widths: steps converge quadratically,
+ * and two more follow. */
+static const double CONVERGED = 0x1p-12;
 /* The search is given up where unknowns are beyond this. Half-widths. */
 static const double FAR = 4;
 enum { STEPS = 10 };
@@ -198,7 +199,7 @@ bool linear_contact_find(const node *a, const node *b, const time_window *window
     state_at(&f, &s);
     if (!(length > 0)) return false;
     if (near == NULL && !(find_root(&f, length, &s) && is_inside(&s, length))) return false;
-    for (int k = 0; k < STEPS_BACK; ++k)
+    for (int k = 0; k < STEPS_BACK && gap > 0; ++k)
         if (!find_axis(&s, &found->axis) ||
             !move(&f, length, vec3_scale(found->axis, gap), &s, &size))
             return false;

@@ -24,7 +24,8 @@ bool linear_contact_is_of(const node *a, const node *b);
 
 /* Seeks the time of the window after its start at which the gap has shrunk to `gap`, and the points
  * that are that far apart then, from `near` on, which was found with less exact nodes; NULL: from
- * the window's start and the nodes' centres. False: none was found, inside both nodes.
+ * the window's start and the nodes' centres. With a gap of 0 it is not sought to the last digits:
+ * another search begins from what is found. False: none was found, inside both nodes.
  * Precondition: linear_contact_is_of. `near` may be `found`. */
 bool linear_contact_find(const node *a, const node *b, const time_window *window, double gap,
                          const linear_contact *near, linear_contact *found);

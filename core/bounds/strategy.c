@@ -69,10 +69,14 @@ strategy_hulls strategy_hulls_of(const node *a, const node *b)
     return net_is_curved(p) || net_is_curved(q) ? HULLS_OF_BOTH : HULLS_FLAT;
 }
 
+bool strategy_wants_net(const node *n)
+{
+    return surface_offers_net(n->surface) && net_may_be_tighter(n);
+}
+
 bool strategy_wants_nets(const node *a, const node *b)
 {
-    return (surface_offers_net(a->surface) && net_may_be_tighter(a)) ||
-           (surface_offers_net(b->surface) && net_may_be_tighter(b));
+    return strategy_wants_net(a) || strategy_wants_net(b);
 }
 
 bool strategy_waits_for_nets(const node *a, const node *b)

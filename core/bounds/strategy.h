@@ -87,8 +87,10 @@ static inline bool strategy_has_both_hulls(const node *a, const node *b)
     return strategy_hulls_of(a, b) >= HULLS_OF_BOTH;
 }
 
-/* Whether to request the nodes' nets: one of them offers a net that may be tighter than its
- * quadratic. */
+/* Whether the node offers a net that may be tighter than its quadratic. */
+bool strategy_wants_net(const node *n);
+
+/* Whether to request the nodes' nets: one of them does so. */
 bool strategy_wants_nets(const node *a, const node *b);
 
 /* Whether the request waits until the pair is popped: both nodes are straight except for a

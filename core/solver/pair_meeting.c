@@ -14,19 +14,24 @@
  * Less would leave no margin for the rounding of times, more makes contacts earlier. */
 static const double ABOVE_CLEAR = 0.125;
 
-/* Seeks the meeting; makes nets where a remainder hides how corners move, and the pair nearly meets
- * without it. */
+static bool lacks_tighter_net(const node *n)
+{
+    return !node_net_is_asked(n) && strategy_wants_net(n);
+}
+
+/* Seeks the meeting; where a remainder hides how corners move, makes nets if the pair meets without
+ * it, and goes on from there. */
 static imp_code find(const impact *im, pair_test *t, linear_contact *met, bool *found,
                      imp_error *error)
 {
     const pair *p = &t->p;
     const double gap = im->gamma_clear + ABOVE_CLEAR * (im->gamma - im->gamma_clear);
-    *found = linear_contact_find(p->a, p->b, &p->window, gap, NULL, met);
-    if (!*found || !strategy_wants_nets(p->a, p->b)) return IMP_SUCCESS;
-    const bool had = node_net_is_asked(p->a) && node_net_is_asked(p->b);
-    const imp_code code = pair_test_ask_for_nets(im, p, &t->bytes, error);
-    if (code == IMP_SUCCESS && !had)
-        *found = linear_contact_find(p->a, p->b, &p->window, gap, met, met);
+    const bool lacks[2] = {lacks_tighter_net(p->a), lacks_tighter_net(p->b)};
+    const bool lacks_any = lacks[0] || lacks[1];
+    *found = linear_contact_find(p->a, p->b, &p->window, lacks_any ? 0 : gap, NULL, met);
+    if (!*found || !lacks_any) return IMP_SUCCESS;
+    const imp_code code = pair_test_make_nets(im, p, lacks, &t->bytes, error);
+    if (code == IMP_SUCCESS) *found = linear_contact_find(p->a, p->b, &p->window, gap, met, met);
     return code;
 }
 

@@ -32,22 +32,29 @@ bool pair_test_fully(const impact *im, pair *p)
 /* --- The first test --------------------------------------------------------------------------- */
 
 /* Later tests of the pair use the nets that are made here (node_net_made). */
-imp_code pair_test_ask_for_nets(const impact *im, const pair *p, uint64_t *bytes, imp_error *error)
+imp_code pair_test_make_nets(const impact *im, const pair *p, const bool sides[2], uint64_t *bytes,
+                             imp_error *error)
 {
     const candidate_pair *both = &im->candidate_pairs[p->candidate_pair];
     node *const nodes[2] = {p->a, p->b};
     tree_growth growth = {0};
     imp_code code = IMP_SUCCESS;
-    if (im->baseline != IMP_BASELINE_NONE) return IMP_SUCCESS;
-    if (node_net_is_asked(p->a) && node_net_is_asked(p->b)) return IMP_SUCCESS;
-    if (!strategy_wants_nets(p->a, p->b)) return IMP_SUCCESS;
     for (int side = 0; side < 2 && code == IMP_SUCCESS; ++side) {
         const net *found;
-        if (surface_offers_net(nodes[side]->surface))
+        if (sides[side])
             code = node_net(both->side[side]->tree, nodes[side], &found, &growth, error);
     }
     *bytes += growth.bytes;
     return code;
+}
+
+imp_code pair_test_ask_for_nets(const impact *im, const pair *p, uint64_t *bytes, imp_error *error)
+{
+    if (im->baseline != IMP_BASELINE_NONE) return IMP_SUCCESS;
+    if (node_net_is_asked(p->a) && node_net_is_asked(p->b)) return IMP_SUCCESS;
+    if (!strategy_wants_nets(p->a, p->b)) return IMP_SUCCESS;
+    const bool offers[2] = {surface_offers_net(p->a->surface), surface_offers_net(p->b->surface)};
+    return pair_test_make_nets(im, p, offers, bytes, error);
 }
 
 imp_code pair_test_first(const impact *im, pair_test *t, trial_rate *turning, imp_error *error)

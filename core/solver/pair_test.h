@@ -19,6 +19,10 @@ bool pair_test_fully(const impact *im, pair *p);
 /* Makes the nodes' nets if strategy_wants_nets; their memory is added to *bytes. */
 imp_code pair_test_ask_for_nets(const impact *im, const pair *p, uint64_t *bytes, imp_error *error);
 
+/* Makes the nets of those sides. */
+imp_code pair_test_make_nets(const impact *im, const pair *p, const bool sides[2], uint64_t *bytes,
+                             imp_error *error);
+
 /* Makes the first test of t->p, and the nodes' nets; the other fields of *t are its result.
  * `turning` is as for separation_window. */
 imp_code pair_test_first(const impact *im, pair_test *t, trial_rate *turning, imp_error *error);

@@ -13,16 +13,28 @@ imp_reason query_reason_of_clear(const imp_query *query)
     return query->examined.lo <= query->examined.hi ? IMP_REASON_NONE : IMP_REASON_NO_TIME;
 }
 
+/* Lemma. At the middle of u and v, a surface of the model a + bt s + qtt s^2 +- e is displaced by
+ * 2 bt +- 2 e from s = -1 to s = 1. Where |bt| > e it moves. */
+static bool is_seen_to_move(const node *root)
+{
+    bool moves = false;
+    if (!root->bounded || root->is_bare || root->many != NULL) return false;
+    for (int i = 0; i < 3; ++i) moves = moves || fabs(root->f.bt[i]) > root->e[i];
+    return moves;
+}
+
 /* Whether one surface of the contact is at rest during all of the query's times. Rates are computed
  * only if no point of it was seen to move. */
 static bool is_at_rest(const imp_query *query, int side)
 {
     const candidate *c = query->candidates.pairs[query->impact.found_candidate].side[side];
     const surface *s = scene_surface(query->scene, c->body, c->surface);
-    const imp_region *times = &tree_root(c->tree)->region;
+    const node *root = tree_root(c->tree);
+    const imp_region *times = &root->region;
     double lo[3], hi[3];
     imp_rate_matrix rates;
-    if (c->moves && c->left_out == 0 && c->held.count == 0 && c->aside.which == 0) return false;
+    const bool is_as_given = c->left_out == 0 && c->held.count == 0 && c->aside.which == 0;
+    if (is_as_given && (c->moves || is_seen_to_move(root))) return false;
     if (surface_piece_count(s) > 0) s = surface_piece(s, query->impact.found.piece[side]);
     surface_domain(s, lo, hi);
     lo[2] = times->lo[2], hi[2] = times->hi[2];
