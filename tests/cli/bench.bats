@@ -219,10 +219,12 @@ counts() { jq 'del(.. | .seconds?)' <<<"$output"; }
 @test "a scene that changes has the answers and pairs of scenes built anew" {
     run -0 "$IMPINGE" bench changes --repeat 1 --json
     valid bench
-    json '.sets[0].cases | length == 3 and all(.[]; .scenes == 200 and (.methods | length == 2 and
+    json '.sets[0].cases | length == 6 and all(.[]; .scenes == 200 and (.methods | length == 2 and
         .[0].verdicts == .[1].verdicts and .[0].pairs == .[1].pairs and .[0].ratio.seconds > 0))'
-    json '[.sets[0].cases[].methods[0] | .verdicts.contact, .pairs.max] | min == 0 and max > 5'
-    json '.sets[0].findings | keys == ["ball_over_built", "motion_over_built", "points_over_built"]'
+    json '[.sets[0].cases[:3][].methods[0] | .verdicts.contact, .pairs.max] | min == 0 and max > 5'
+    json 'all(.sets[0].cases[3:][].methods[0]; .verdicts.contact == 200 and .pairs.max == 1)'
+    json '.sets[0].findings | keys == ["ball_over_built", "edge_over_built", "motion_over_built",
+        "points_over_built", "vertex_of_cloth_over_built", "vertex_over_built"]'
 }
 
 @test "certificates are not measured where no verifier is" {

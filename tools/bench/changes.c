@@ -14,9 +14,19 @@
 
 enum { POINTS = 16, BALLS_SIDE = 5, BALLS = BALLS_SIDE * BALLS_SIDE * BALLS_SIDE };
 
-typedef enum what { CHANGE_POINTS, CHANGE_MOTION, CHANGE_BALL } what;
+typedef enum what {
+    CHANGE_POINTS,
+    CHANGE_MOTION,
+    CHANGE_BALL,
+    CHANGE_VERTEX,          /* over a face that moves uniformly */
+    CHANGE_VERTEX_OF_CLOTH, /* over one that deforms */
+    CHANGE_EDGE,
+    CHANGES
+} what;
+_Static_assert((int)CHANGES <= (int)BENCH_FINDINGS_MAX, "each case has a finding");
 
-/* What changes with each step: the points of a patch and its velocity, or that of a ball. */
+/* What changes with each step: the points of a patch and its velocity, or that of a ball, or a
+ * vertex or an edge (ends_of). */
 typedef struct numbers {
     double points[POINTS][3], velocity[3];
 } numbers;
@@ -33,6 +43,32 @@ static numbers draw(uint64_t *state)
     return x;
 }
 
+/* Two ends that fall by 2 in a unit of time, and by random numbers; a vertex is the first. */
+typedef struct ends {
+    double at[2][3], moves[2][3];
+} ends;
+
+static ends ends_of(const numbers *x, what which)
+{
+    ends e;
+    for (int k = 0; k < 2; ++k)
+        for (int i = 0; i < 3; ++i) {
+            e.at[k][i] = x->points[6 * k + i][2] + (i == 2);
+            e.moves[k][i] = x->points[6 * k + 3 + i][2] - 2 * (i == 2);
+        }
+    if (which == CHANGE_EDGE) e.at[0][0] -= 1, e.at[1][0] += 1;
+    return e;
+}
+
+static void end_arguments(const ends *e, what which, imp_argument to[2])
+{
+    const bool is_edge = which == CHANGE_EDGE;
+    to[0] = is_edge ? imp_argument_rows("points", e->at[0], 2, 3)
+                    : imp_argument_list("position", e->at[0], 3);
+    to[1] = is_edge ? imp_argument_rows("velocities", e->moves[0], 2, 3)
+                    : imp_argument_list("velocity", e->moves[0], 3);
+}
+
 static imp_code add_body(imp_builder *b, const char *type, const imp_argument *arguments,
                          size_t count, const double velocity[3], imp_error *error)
 {
@@ -40,7 +76,8 @@ static imp_code add_body(imp_builder *b, const char *type, const imp_argument *a
     const imp_argument moves = imp_argument_list("velocity", velocity, 3);
     imp_code code = imp_builder_body(b, NULL, &body, error);
     if (code == IMP_SUCCESS) code = imp_builder_surface(b, body, type, arguments, count, error);
-    return code == IMP_SUCCESS ? imp_builder_map(b, body, "translate", &moves, 1, error) : code;
+    if (code != IMP_SUCCESS || velocity == NULL) return code;
+    return imp_builder_map(b, body, "translate", &moves, 1, error);
 }
 
 static size_t patch_arguments(const numbers *x, imp_argument to[2])
@@ -80,6 +117,32 @@ static imp_code add_balls(imp_builder *b, const numbers *x, imp_error *error)
     return code;
 }
 
+/* A vertex that falls on a face, or an edge on another: they touch after half a unit of time. */
+static imp_code add_falling(imp_builder *b, what which, const numbers *x, imp_error *error)
+{
+    static const double corners[3][3] = {{-1.1, -1.2, 0.03}, {1.3, -0.9, -0.04}, {0.1, 1.4, 0.07}};
+    static const double moving[3][3] = {{0.1, 0.2, 0.3}, {0.1, 0.2, 0.3}, {0.1, 0.2, 0.3}};
+    static const double bending[3][3] = {{0.1, 0.2, 0.3}, {-0.1, 0.2, 0.3}, {0.1, 0.3, 0.1}};
+    static const double across[2][3] = {{0.1, -1.2, 0.03}, {-0.05, 1.1, -0.04}};
+    const bool is_edge = which == CHANGE_EDGE;
+    const ends e = ends_of(x, which);
+    imp_argument arguments[2];
+    end_arguments(&e, which, arguments);
+    const imp_code code = add_body(b, is_edge ? "segment" : "point", arguments, 2, NULL, error);
+    if (code != IMP_SUCCESS) return code;
+    const double *by = which == CHANGE_VERTEX ? moving[0] : bending[0];
+    arguments[0] =
+        imp_argument_rows("points", is_edge ? across[0] : corners[0], is_edge ? 2 : 3, 3);
+    arguments[1] = imp_argument_rows("velocities", by, is_edge ? 2 : 3, 3);
+    return add_body(b, is_edge ? "segment" : "triangle", arguments, 2, NULL, error);
+}
+
+static imp_code add_bodies(imp_builder *b, what which, const numbers *x, imp_error *error)
+{
+    if (which >= CHANGE_VERTEX) return add_falling(b, which, x, error);
+    return which == CHANGE_BALL ? add_balls(b, x, error) : add_patches(b, x, error);
+}
+
 /* NULL: *error says why. */
 static imp_scene *build_scene(imp_registry *registry, what which, const numbers *x,
                               imp_error *error)
@@ -87,8 +150,7 @@ static imp_scene *build_scene(imp_registry *registry, what which, const numbers 
     imp_builder *b = imp_builder_new(registry);
     if (b == NULL) return error->code = IMP_ERROR_MEMORY, NULL;
     imp_code code = imp_builder_time(b, 0, 1, error);
-    if (code == IMP_SUCCESS)
-        code = which == CHANGE_BALL ? add_balls(b, x, error) : add_patches(b, x, error);
+    if (code == IMP_SUCCESS) code = add_bodies(b, which, x, error);
     imp_scene *scene = code == IMP_SUCCESS ? imp_builder_finish(b, error) : NULL;
     imp_builder_free(b);
     return scene;
@@ -100,6 +162,11 @@ static imp_code change_scene(imp_scene *scene, what which, const numbers *x, imp
     if (which == CHANGE_POINTS)
         return imp_scene_set_values(scene, 0, 0, SIZE_MAX, arguments, patch_arguments(x, arguments),
                                     error);
+    if (which >= CHANGE_VERTEX) {
+        const ends e = ends_of(x, which);
+        end_arguments(&e, which, arguments);
+        return imp_scene_set_values(scene, 0, 0, SIZE_MAX, arguments, 2, error);
+    }
     arguments[0] = imp_argument_list("velocity", x->velocity, 3);
     return imp_scene_set_values(scene, 0, SIZE_MAX, 0, arguments, 1, error);
 }
@@ -200,8 +267,11 @@ static exit_status build(bench_cases *list, const bench_request *request)
 {
     static const char *const names[] = {[CHANGE_POINTS] = "16 points of a patch",
                                         [CHANGE_MOTION] = "motion of a patch",
-                                        [CHANGE_BALL] = "motion of one of 125 balls"};
-    for (int k = CHANGE_POINTS; k <= CHANGE_BALL; ++k) {
+                                        [CHANGE_BALL] = "motion of one of 125 balls",
+                                        [CHANGE_VERTEX] = "vertex that meets a face",
+                                        [CHANGE_VERTEX_OF_CLOTH] = "vertex, face that deforms",
+                                        [CHANGE_EDGE] = "edge that meets an edge"};
+    for (int k = 0; k < CHANGES; ++k) {
         bench_begin(list, 1e-6, -1, "%s", names[k]);
         if (list->no_memory) break;
         list->cases[list->count - 1].change = k;
@@ -214,7 +284,10 @@ static size_t find(const bench_result *results, size_t count, bench_finding *fin
 {
     static const char *const keys[] = {[CHANGE_POINTS] = "points_over_built",
                                        [CHANGE_MOTION] = "motion_over_built",
-                                       [CHANGE_BALL] = "ball_over_built"};
+                                       [CHANGE_BALL] = "ball_over_built",
+                                       [CHANGE_VERTEX] = "vertex_over_built",
+                                       [CHANGE_VERTEX_OF_CLOTH] = "vertex_of_cloth_over_built",
+                                       [CHANGE_EDGE] = "edge_over_built"};
     for (size_t k = 0; k < count; ++k) {
         const bench_row *rows = results[k].rows;
         const double ratio = rows[0].tally.seconds.mean / rows[1].tally.seconds.mean;
