@@ -170,6 +170,7 @@ core_bounds = \
     core/bounds/piece_planes.c core/bounds/piece_planes.h \
     core/bounds/piece_shadow.c core/bounds/piece_shadow.h core/bounds/piece_rings.c \
     core/bounds/distance_ball.c core/bounds/distance_sides.c \
+    core/bounds/distance_halving.c core/bounds/distance_halving.h \
     core/bounds/distance_start.c \
     core/bounds/fixed_axes.c core/bounds/fixed_axes.h \
     core/bounds/gap_lines.c core/bounds/gap_lines.h \

@@ -9,6 +9,7 @@
 
 #include "core/bounds/claim_audit.h"
 #include "core/bounds/convex_line.h"
+#include "core/bounds/distance_halving.h"
 #include "core/bounds/quadratic.h"
 #include "core/bounds/strategy.h"
 #include "core/bounds/tuning.h"
@@ -136,11 +137,11 @@ static imp_status points_of(const distance_question *q, size_t common, const imp
     return status;
 }
 
-static imp_status distance_of(const distance_question *q, size_t common, const imp_model point[3],
-                              imp_model *g)
+imp_status distance_of_points(const distance_question *q, const imp_region *r,
+                              const imp_model point[3], imp_model *g)
 {
     const surface *b = q->b->surface;
-    const imp_region *r = &q->a->region;
+    const size_t common = surface_common_maps(q->a->surface, b);
     const size_t maps = q->is_bare ? 0 : surface_map_count(b) - common;
     if (q->plane != NULL)
         return surface_height_within(b, q->plane, r, point, q->moment, q->slip, g);
@@ -149,11 +150,11 @@ static imp_status distance_of(const distance_question *q, size_t common, const i
                : surface_distance(b, r, maps, point, g);
 }
 
-/* Computes the Taylor model *g of the distance. *known false: the type gives no bound. */
-static imp_code find_distance(const distance_question *q, imp_model *g, double bend[3], bool *known,
-                              imp_error *error)
+/* Computes the Taylor models of points and *g of their distance. *known false: the type gives no
+ * bound. */
+static imp_code find_distance(const distance_question *q, imp_model point[3], imp_model *g,
+                              double bend[3], bool *known, imp_error *error)
 {
-    imp_model point[3];
     const size_t common = surface_common_maps(q->a->surface, q->b->surface);
     const imp_region over = region_of(q);
     imp_status status = points_of(q, common, &over, point);
@@ -164,7 +165,7 @@ static imp_code find_distance(const distance_question *q, imp_model *g, double b
         bend_of(point, &over, bend);
     else if (q->is_carried)
         bend_beside_way(q->a, point, bend);
-    status = distance_of(q, common, point, g);
+    status = distance_of_points(q, &q->a->region, point, g);
     *known = status == IMP_STATUS_OK;
     if (status == IMP_STATUS_OK || status == IMP_STATUS_UNBOUNDED) return IMP_SUCCESS;
     return distance_fault(q->b->surface, status, error);
@@ -255,25 +256,6 @@ static sides sides_of(const imp_model *g, const imp_region *r, const span *w, do
     return both;
 }
 
-/* Whether splitting this node alone is likely to separate it: the polynomial without the remainder
- * proves it apart, or varies little beside the remainder, as between parallel surfaces; or the node
- * slides within itself, so that at all times some neighbours are as near. Its halves, whose
- * remainders are much smaller, then help more than halves of its neighbours. False if the remainder
- * is mere rounding, or the node so large that the remainder exceeds its extents. */
-static bool is_worth_halving(const imp_model *g, const sides *both, const node *n,
-                             double gamma_clear, double size, bool within_itself, bool is_orbit)
-{
-    const double extent = n->extent[PARAMETER_U] + n->extent[PARAMETER_V];
-    double least[2];
-    if (is_orbit && fabs(g->a) - g->e > gamma_clear) return true;
-    if (!(g->e > TUNING_DISTANCE_ROUNDING * size && g->e < TUNING_DISTANCE_EXTENT * extent))
-        return false;
-    for (int k = 0; k < 2; ++k) least[k] = both->low[k] - fabs(both->drift[k]);
-    const double farther = least[0] > least[1] ? least[0] : least[1];
-    const bool is_level = -(least[0] + least[1]) < TUNING_DISTANCE_LEVEL * g->e;
-    return farther + (within_itself || is_level ? g->e : 0) > gamma_clear;
-}
-
 /* Returns a lower bound of |g| by its range, which may do where the remainder is too large. */
 static double range_lower(const imp_model *g) { return g->lo > -g->hi ? g->lo : -g->hi; }
 
@@ -292,13 +274,6 @@ distance_view distance_view_none(const node *a)
     return view;
 }
 
-/* Whether a slides along b within itself, or the pair is searched at one moment that represents all
- * times. */
-static bool is_within_itself(const distance_question *q)
-{
-    return distance_slides(q) || q->a->region.lo[PARAMETER_T] == q->a->region.hi[PARAMETER_T];
-}
-
 /* Returns what remainder and rounding take away. */
 static double slack_of(const imp_model *g, double size)
 {
@@ -307,27 +282,28 @@ static double slack_of(const imp_model *g, double size)
 }
 
 /* Cuts the window by g and returns what g shows over it: of a ball, of its center. */
-static void cut_by(const distance_question *q, const imp_model *g, time_window *window,
-                   distance_view *view)
+static imp_code cut_by(const distance_question *q, const imp_model point[3], const imp_model *g,
+                       time_window *window, distance_view *view, imp_error *error)
 {
-    const node *a = q->a;
     const double gamma_clear = q->is_ball ? sum_upper(q->gamma_clear, q->radius) : q->gamma_clear;
     const double range = range_lower(g);
     if (range > 0) view->lower = range;
     view->is_apart = range > gamma_clear;
     const double size = size_upper(g);
-    if (view->is_apart || !(size < 0x1p400)) return;
+    if (view->is_apart || !(size < 0x1p400)) return IMP_SUCCESS;
     const span whole = span_of(window);
-    const sides both = sides_of(g, &a->region, &whole, size);
+    const sides both = sides_of(g, &q->a->region, &whole, size);
     const double slack = slack_of(g, size);
     const double lower = sides_lower(&both, slack);
     if (lower > view->lower) view->lower = lower;
     w_range s = {-1, 1};
     for (int k = 0; k < 2 && !view->is_apart; ++k)
         view->is_apart = !w_range_cut(&s, both.low[k] - slack, both.drift[k], gamma_clear);
-    view->is_promising = !view->is_apart && is_worth_halving(g, &both, a, gamma_clear, size,
-                                                             is_within_itself(q), q->held != 0);
-    if (!view->is_apart) window_cut(window, whole.mid, whole.half, &s);
+    if (view->is_apart) return IMP_SUCCESS;
+    window_cut(window, whole.mid, whole.half, &s);
+    halving_signs of = {.point = point, .g = g, .size = size};
+    for (int k = 0; k < 2; ++k) of.least[k] = both.low[k] - fabs(both.drift[k]);
+    return distance_judge_halving(q, &of, view, error);
 }
 
 bool distance_cut_heights(const imp_model *g, int count, const imp_region *r, double gamma_clear,
@@ -354,12 +330,12 @@ imp_code distance_cut(const distance_question *q, time_window *window, distance_
                       imp_error *error)
 {
     const time_window before = *window;
-    imp_model g;
+    imp_model point[3], g;
     bool known;
     *view = distance_view_none(q->a);
-    const imp_code code = find_distance(q, &g, view->bend, &known, error);
+    imp_code code = find_distance(q, point, &g, view->bend, &known, error);
+    if (code == IMP_SUCCESS && known) code = cut_by(q, point, &g, window, view, error);
     if (code != IMP_SUCCESS || !known) return code;
-    cut_by(q, &g, window, view);
     if (q->is_ball)
         view->lower = view->lower > q->radius ? difference_lower(view->lower, q->radius) : 0;
     const bool decides =

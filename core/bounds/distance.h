@@ -44,6 +44,7 @@ typedef struct distance_question {
     unsigned held;   /* parameters of a that stay in the middle: bit 0 u, bit 1 v (slip counts) */
     bool is_ball;    /* the center of the ball that holds a's surface is taken (surface_ball), */
     double radius;   /* and this ball's radius at all times of a is left out; length */
+    bool seeks_contact;
     bool is_audited; /* check decisive distances at points (claim_audit.h) */
 } distance_question;
 
@@ -75,6 +76,10 @@ imp_code distance_cut_start(const distance_question *q, time_window *window, boo
  * becomes a bound of g, or |g|, over the window as passed, or 0. */
 bool distance_cut_heights(const imp_model *g, int count, const imp_region *r, double gamma_clear,
                           time_window *window, double *lower);
+
+/* Computes a Taylor model of the distance of points before common maps, over the region's times. */
+imp_status distance_of_points(const distance_question *q, const imp_region *times,
+                              const imp_model point[3], imp_model *g);
 
 /* Sets and returns the error for a status that a callback of the surface returned. */
 imp_code distance_fault(const surface *s, imp_status status, imp_error *error);
@@ -110,6 +115,7 @@ typedef struct distance_sides {
     size_t still_maps[2];  /* surface_still_maps of each surface */
     distance_slips *slips; /* the caller's, of the two surfaces */
     arena_store *store;    /* of temporary memory; NULL: the heap */
+    bool seeks_contact;    /* not the least distance */
     bool seeks_start;      /* whether a ball's distance shall cut the window's start exactly */
     bool takes_orbits;     /* whether one point may stand for others, screws included */
     bool is_audited;

@@ -45,6 +45,7 @@ imp_code distance_cut_ball(const distance_sides *of, int side, double gamma_clea
                            .gamma_clear = gamma_clear,
                            .slip = INFINITY,
                            .is_ball = true,
+                           .seeks_contact = of->seeks_contact,
                            .is_audited = of->is_audited};
     *view = distance_view_none(own);
     if (!of->takes_orbits || other->many != NULL || !surface_is_whole(own->surface, &own->region))

@@ -169,6 +169,7 @@ static imp_code question_of(const distance_sides *of, int side, double gamma_cle
                              .b = other,
                              .gamma_clear = gamma_clear,
                              .slip = INFINITY,
+                             .seeks_contact = of->seeks_contact,
                              .is_audited = of->is_audited};
     if (!surface_has_symmetry(other->surface)) return IMP_SUCCESS;
     const time_window times = pair_times(of->root[side], of->root[!side]);
@@ -212,6 +213,7 @@ static imp_code cut_along_face(const distance_sides *of, int side, double gamma_
                            .gamma_clear = gamma_clear,
                            .moment = 0.5 * times.lo + 0.5 * times.hi,
                            .slip = INFINITY,
+                           .seeks_contact = of->seeks_contact,
                            .is_audited = of->is_audited};
     const imp_code code = find_slip(of->root[side], other, &plane, &times, q.moment,
                                     distance_slip_enough(gamma_clear), &q.slip, error);

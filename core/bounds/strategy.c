@@ -183,8 +183,7 @@ void strategy_note_distances(const slide_signs *of, bool pays)
     if (of->is_parted) trial_rate_note(of->sliding, pays);
 }
 
-/* Whether the node is so small that its remainder at one moment is below a part of its extents. */
-static bool is_small(const node *n)
+bool strategy_is_small(const node *n)
 {
     const double extent = n->extent[PARAMETER_U] + n->extent[PARAMETER_V];
     return n->e[0] + n->e[1] + n->e[2] - n->time_remainder < TUNING_DISTANCE_EXTENT * extent;
@@ -192,5 +191,6 @@ static bool is_small(const node *n)
 
 bool strategy_distance_pays(const node *a, const node *b, size_t common_maps)
 {
-    return common_maps == 0 || !is_small(a) || !is_small(b) || strategy_is_tangent(a, b);
+    return common_maps == 0 || !strategy_is_small(a) || !strategy_is_small(b) ||
+           strategy_is_tangent(a, b);
 }

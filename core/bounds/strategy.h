@@ -171,6 +171,9 @@ bool strategy_takes_distances(const node *a, const node *b, const slide_signs *o
                               strategy_goal goal);
 void strategy_note_distances(const slide_signs *of, bool pays);
 
+/* Whether the node is so small that its remainder at one moment is below a part of its extents. */
+bool strategy_is_small(const node *n);
+
 /* Whether distances of a from the surface of b are worth the inclusion that `common_maps` maps of
  * both surfaces cost: not if both nodes are so small that remainders are useful, and they are not
  * tangent. */

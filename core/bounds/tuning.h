@@ -155,7 +155,7 @@ TUNING_INTEGER(TUNING_FIELD_SHARE, 8);
 /* Opportunities skipped between two trials of a turning axis that does not pay. */
 TUNING_INTEGER(TUNING_FIELD_WAIT, 7);
 
-/* --- Distances from a surface (strategy.c, distance.c); sets: conformal, tori ----------------- */
+/* --- Distances from a surface (strategy.c, distance_halving.c); sets: conformal, tori --------- */
 
 /* A remainder above this part of the distance's size is more than rounding. */
 TUNING_NUMBER(TUNING_DISTANCE_ROUNDING, 0x1p-40);
@@ -164,6 +164,11 @@ TUNING_NUMBER(TUNING_DISTANCE_EXTENT, 0.5);
 /* A distance is level if its polynomial varies by less than this times its remainder: the
  * remainder hides the gap. */
 TUNING_INTEGER(TUNING_DISTANCE_LEVEL, 16);
+/* A distance's remainder below this times that of its points is not looked at further. */
+TUNING_INTEGER(TUNING_DISTANCE_OF_POINTS, 4);
+/* This part of the remainder that a distance has due to time counts as bending motion, when a
+ * contact is sought; 1 doubles the pairs of nuts that never touch. */
+TUNING_NUMBER(TUNING_DISTANCE_IN_TIME, 0.5);
 /* Two surfaces that turn within themselves are searched at one moment if rounding varies their
  * distance by less than gamma_clear / this. */
 TUNING_NUMBER(TUNING_REST_SLIP, 0x1p12);

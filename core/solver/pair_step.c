@@ -42,6 +42,7 @@ imp_code pair_look(const pair *p, candidate_pair *both, double limit, strategy_g
     }
     if (!strategy_takes_distances(p->a, p->b, &signs, goal)) return IMP_SUCCESS;
     distance_sides sides = sides_of(p, both, keeps_proof);
+    sides.seeks_contact = goal == GOAL_CONTACT;
     sides.seeks_start = goal == GOAL_CONTACT && signs.is_whole;
     const imp_code code = distance_cut_sides(&sides, limit, seen, error);
     strategy_note_distances(&signs, seen->is_apart || seen->side >= 0);

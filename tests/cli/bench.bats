@@ -102,6 +102,26 @@ measured() {
     json '.verdict == "contact" and (.t_lower - 0.2004 | fabs) < 1e-3 and .stats.pairs < 30000'
 }
 
+# A ball beside a quarter of a torus of NURBS, which turns about its axis. The distance from the whole
+# torus says nothing about an edge, nor about a bump.
+torus_of_nurbs() { # BUMPED_POINT RATE OFFSET
+    jq -cn --argjson bumped "$1" --argjson rate "$2" --argjson offset "$3" '(1 / 2 | sqrt) as $c |
+        [1, $c, 1] as $w | [0, 0, 0, 1, 1, 1] as $k | {gamma: 1e-6, bodies: [{surfaces: [{type: "nurbs",
+        degree: [2, 2], knots: [$k, $k], weights: [$w[] as $a | $w[] | . * $a],
+        points: [[1.6, 0, 0], [1.6, 0, 0.4], [1.2, 0, 0.4], [1.6, 1.6, 0], [1.6, 1.6, 0.4], $bumped,
+            [0, 1.6, 0], [0, 1.6, 0.4], [0, 1.2, 0.4]]}], maps: [{type: "rotate", rate: $rate}]},
+        {surfaces: [{type: "sphere", radius: 0.19}], maps: [{type: "translate", offset: $offset}]}]}'
+}
+
+@test "a ball that passes the edge of a torus of NURBS, or reaches a bump, takes some hundred pairs" {
+    torus_of_nurbs '[1.2, 1.2, 0.4]' 0.3 '[[0.73, 1.04, 0.16], [0.09, -0.5, -0.16]]' >edge.json
+    run -0 "$IMPINGE" solve edge.json --json
+    json '.verdict == "clear" and .stats.pairs < 400'
+    torus_of_nurbs '[1.2, 1.2, 0.4002]' 0.06 '[[1.07, 0.79, 0.14], [0.44, 0.76, 0.26]]' >bump.json
+    run -0 "$IMPINGE" solve bump.json --json
+    json '.verdict == "contact" and .stats.pairs < 900'
+}
+
 @test "no scene of any other set is left open, and none takes 64 megabytes" {
     measured '[.sets[] | select(.set != "conformal").cases[].methods[]] | length >= 50 and
         all(.verdicts.undecided == 0 and .bytes.max < 64 * 1024 * 1024)'
