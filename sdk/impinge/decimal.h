@@ -41,9 +41,39 @@ enum {
     IMP_DECIMAL_LENGTH = 100, /* longest number that imp_decimal_number reads; characters */
 };
 
+#if __BYTE_ORDER__ == __ORDER_LITTLE_ENDIAN__
+/* Reads eight characters, the first in the lowest byte. False: one is no digit.
+ *
+ * Lemma. '0' to '9' are 0x30 to 0x39. A byte whose high half is 3 keeps it when 6 is added if its
+ * low half is at most 9; no byte carries then. Each product joins neighbours: digits to numbers
+ * below 100, these to numbers below 10^4, these to one below 10^8. Its sums are below 2^8, 2^16 and
+ * 2^32, in lanes of as many bits, so that no lane carries. */
+static inline bool imp_decimal_eight(const char *at, uint64_t *eight)
+{
+    const uint64_t highs = UINT64_C(0xf0f0f0f0f0f0f0f0), threes = UINT64_C(0x3030303030303030);
+    uint64_t x;
+    memcpy(&x, at, sizeof x);
+    if ((x & highs) != threes || ((x + UINT64_C(0x0606060606060606)) & highs) != threes)
+        return false;
+    x -= threes;
+    x = (x * (10 * 256 + 1) >> 8) & UINT64_C(0x00ff00ff00ff00ff);
+    x = (x * (100 * 65536 + 1) >> 16) & UINT64_C(0x0000ffff0000ffff);
+    *eight = (x * (10000 * (UINT64_C(1) << 32) + 1)) >> 32;
+    return true;
+}
+#else
+static inline bool imp_decimal_eight(const char *at, uint64_t *eight)
+{
+    (void)at, (void)eight;
+    return false;
+}
+#endif
+
 /* Appends digits to *all, and returns the first character that is none. */
 static inline const char *imp_decimal_digits(const char *at, const char *end, uint64_t *all)
 {
+    uint64_t eight;
+    for (; end - at >= 8 && imp_decimal_eight(at, &eight); at += 8) *all = 100000000 * *all + eight;
     for (; at < end; ++at) {
         const unsigned digit = (unsigned)(unsigned char)*at - '0';
         if (digit > 9) break;
