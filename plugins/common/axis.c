@@ -61,22 +61,26 @@ static imp_interval interval_of(near_constant k)
 
 /* --- Turning ---------------------------------------------------------------------------------- */
 
+/* Entry i, j of the matrix that takes w to k x w. */
+static near_constant turned_at(const axis_frame *frame, int i, int j)
+{
+    if (i == j) return near_exact(0);
+    const near_constant k = frame->unit[3 - i - j];
+    return j == (i + 1) % 3 ? (near_constant){-k.value, k.error} : k;
+}
+
 axis_frame axis_frame_of(const double axis[3])
 {
     axis_frame frame;
     imp_model k[3];
     axis_unit_of(axis, k);
     for (int i = 0; i < 3; ++i) {
-        int next = (i + 1) % 3, last = (i + 2) % 3;
         for (int j = 0; j < 3; ++j) {
             imp_model both = imp_mul(k[i], k[j]);
             frame.along[i][j] = near_of(both);
             frame.across[i][j] = near_of(imp_sub(imp_num(i == j), both));
         }
         frame.unit[i] = near_of(k[i]);
-        frame.turned[i][i] = near_exact(0);
-        frame.turned[i][last] = near_of(k[next]);
-        frame.turned[i][next] = near_of(imp_neg(k[last]));
     }
     return frame;
 }
@@ -85,9 +89,9 @@ axis_frame axis_frame_of(const double axis[3])
 static imp_model axis_entry(const axis_frame *frame, int i, int j, imp_model cosine, imp_model sine)
 {
     imp_model sum = imp_num(0);
-    if (!near_is_zero(frame->across[i][j])) sum = near_scale(cosine, frame->across[i][j]);
-    if (!near_is_zero(frame->turned[i][j]))
-        sum = imp_add(sum, near_scale(sine, frame->turned[i][j]));
+    const near_constant across = frame->across[i][j], turned = turned_at(frame, i, j);
+    if (!near_is_zero(across)) sum = near_scale(cosine, across);
+    if (!near_is_zero(turned)) sum = imp_add(sum, near_scale(sine, turned));
     return near_shift(sum, frame->along[i][j]);
 }
 
@@ -121,7 +125,7 @@ static axis_point_matrix matrix_near_rest(const axis_frame *frame, double e)
     axis_point_matrix matrix;
     for (int i = 0; i < 3; ++i)
         for (int j = 0; j < 3; ++j) {
-            const near_constant across = frame->across[i][j], turned = frame->turned[i][j];
+            const near_constant across = frame->across[i][j], turned = turned_at(frame, i, j);
             const double moving =
                 fabs(across.value) + across.error + fabs(turned.value) + turned.error;
             matrix.entry[i][j] = i == j;
@@ -152,7 +156,7 @@ axis_point_matrix axis_matrix_of_points(const axis_frame *frame, const imp_model
     for (int i = 0; i < 3; ++i)
         for (int j = 0; j < 3; ++j) {
             const near_constant along = frame->along[i][j], across = frame->across[i][j],
-                                turned = frame->turned[i][j];
+                                turned = turned_at(frame, i, j);
             const double moving = fabs(across.value) + fabs(turned.value);
             matrix.entry[i][j] = c * across.value + s * turned.value + along.value;
             matrix.off[i][j] = along.error + across.error + turned.error + trig * moving +
@@ -213,8 +217,9 @@ static imp_model matrix_entry(const axis_frame *frame, int i, int j, const imp_m
     const near_constant along = frame->along[i][j];
     double size = fabs(along.value);
     imp_model sum = imp_known(along.value, along.error);
-    if (!near_is_zero(frame->across[i][j])) add_share(frame->across[i][j], cosine, p, &sum, &size);
-    if (!near_is_zero(frame->turned[i][j])) add_share(frame->turned[i][j], sine, p, &sum, &size);
+    const near_constant across = frame->across[i][j], turned = turned_at(frame, i, j);
+    if (!near_is_zero(across)) add_share(across, cosine, p, &sum, &size);
+    if (!near_is_zero(turned)) add_share(turned, sine, p, &sum, &size);
     sum.e = (sum.e + (3 * IMP_U * size + IMP_TINY)) * IMP_SLACK;
     sum.rate[p] = imp_smaller(sum.rate[p], angle->rate[p]);
     return imp_model_within(sum, imp_interval_make(-1, 1));
@@ -280,7 +285,7 @@ static imp_interval turned_entry(const axis_frame *frame, int i, int j, imp_inte
                                  imp_interval sine)
 {
     imp_interval across = imp_interval_mul(cosine, interval_of(frame->across[i][j]));
-    imp_interval turned = imp_interval_mul(sine, interval_of(frame->turned[i][j]));
+    imp_interval turned = imp_interval_mul(sine, interval_of(turned_at(frame, i, j)));
     return imp_interval_add(across, turned);
 }
 

@@ -7,7 +7,11 @@
 #include <stdlib.h>
 #include <string.h>
 
-void course_clear(course *c) { free(c->memory); }
+void course_clear(course *c)
+{
+    free(c->polynomial.coefficient);
+    free(c->keys);
+}
 
 /* --- Making one ------------------------------------------------------------------------------- */
 
@@ -75,10 +79,10 @@ static imp_status course_check(const course_question *q)
 static imp_status course_read_polynomial(course *c, const course_question *q)
 {
     const imp_value *rate = &q->v[COURSE_RATE], *coefficients = &q->v[COURSE_COEFFICIENTS];
-    c->memory = malloc(course_width(q) * polynomial_count(rate, coefficients) * sizeof(double));
-    if (c->memory == NULL) return IMP_STATUS_INTERNAL;
     c->numbers = course_width(q) * polynomial_count(rate, coefficients);
-    c->polynomial = polynomial_read(rate, coefficients, course_width(q), (double *)c->memory);
+    double *room = malloc(c->numbers * sizeof *room);
+    if (room == NULL) return IMP_STATUS_INTERNAL;
+    c->polynomial = polynomial_read(rate, coefficients, course_width(q), room);
     return IMP_STATUS_OK;
 }
 
@@ -107,7 +111,8 @@ imp_status course_renew(course *c, const imp_value *values, int first, unit_kind
         c->polynomial.count != polynomial_count(rate, coefficients))
         return IMP_STATUS_UNBOUNDED;
     c->hold = q.v[COURSE_HOLD].number[0] != 0;
-    c->polynomial = polynomial_read(rate, coefficients, course_width(&q), (double *)c->memory);
+    c->polynomial =
+        polynomial_read(rate, coefficients, course_width(&q), c->polynomial.coefficient);
     return IMP_STATUS_OK;
 }
 
@@ -116,8 +121,8 @@ imp_status course_renew(course *c, const imp_value *values, int first, unit_kind
 void course_span(const course *c, double *lo, double *hi)
 {
     const bool is_table = c->polynomial.count == 0;
-    *lo = is_table ? c->table.time[0] : -INFINITY;
-    *hi = is_table ? c->table.time[c->table.pieces] : INFINITY;
+    *lo = is_table ? c->keys->table.time[0] : -INFINITY;
+    *hi = is_table ? c->keys->table.time[c->keys->table.pieces] : INFINITY;
 }
 
 void course_times(const course *c, double *lo, double *hi)
@@ -137,7 +142,7 @@ void course_at(const course *c, size_t width, imp_model t, imp_model *out)
 {
     imp_interval node[SPLINE_WIDTH_MAX];
     if (c->polynomial.count == 0)
-        spline_models(&c->table, c->hold ? spline_hold(&c->table, t) : t, out, node);
+        spline_models(&c->keys->table, c->hold ? spline_hold(&c->keys->table, t) : t, out, node);
     else
         for (size_t i = 0; i < width; ++i) out[i] = polynomial_at(&c->polynomial, i, t);
 }
@@ -147,7 +152,7 @@ void course_at(const course *c, size_t width, imp_model t, imp_model *out)
 /* What spline_write_part asks for: a number of the table in units of the host. */
 static void write_key(const void *of, int order, size_t key, size_t lane, const imp_text_sink *to)
 {
-    const course *c = of;
+    const course_keys *c = of;
     const unit *from = &c->from[lane], *into = &c->to[lane];
     imp_add_number(to, c->given[order][key * c->table.lanes + lane]);
     if (from->top * into->bottom == into->top * from->bottom && from->is_of_pi == into->is_of_pi)
@@ -163,19 +168,29 @@ static void write_key(const void *of, int order, size_t key, size_t lane, const 
     imp_add_text(to, from->is_of_pi ? ")*pi" : ")");
 }
 
-void course_write(const course *c, const char *name, const char *before, const char *after,
-                  const imp_text_sink *to)
+/* Prints a table, a part for each of its pieces. */
+static void write_table(const course *c, const char *name, const char *before, const char *after,
+                        const imp_text_sink *to)
 {
-    const char digits[COURSE_WIDTH_MAX] = {'0', '1', '2'};
-    const int orders = c->given[1] == NULL ? 0 : c->given[2] == NULL ? 1 : 2;
-    const spline_text text = {&c->table, c->hold, orders, name, write_key, c};
-    for (size_t k = 0; c->polynomial.count == 0 && k < c->table.pieces; ++k) {
+    const course_keys *keys = c->keys;
+    const int orders = keys->given[1] == NULL ? 0 : keys->given[2] == NULL ? 1 : 2;
+    const spline_text text = {&keys->table, c->hold, orders, name, write_key, keys};
+    for (size_t k = 0; k < keys->table.pieces; ++k) {
         imp_add_text(to, k > 0 ? "| " : "");
         imp_add_text(to, before);
         spline_write_part(&text, k, to);
         imp_add_text(to, after);
     }
-    if (c->polynomial.count == 0) return;
+}
+
+void course_write(const course *c, const char *name, const char *before, const char *after,
+                  const imp_text_sink *to)
+{
+    const char digits[COURSE_WIDTH_MAX] = {'0', '1', '2'};
+    if (c->polynomial.count == 0) {
+        write_table(c, name, before, after, to);
+        return;
+    }
     imp_add_text(to, before);
     for (size_t i = 0; i < COURSE_WIDTH_MAX && i * c->polynomial.count < c->numbers; ++i) {
         char numbered[32];

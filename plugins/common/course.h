@@ -74,16 +74,21 @@ enum {
 
 enum { COURSE_WIDTH_MAX = 3, COURSE_ORDERS = 3 };
 
+/* A table, whose numbers follow in the same block of memory. */
+typedef struct course_keys {
+    spline table;
+    /* The numbers of the table, row by row, before their units are converted, and its velocities
+     * and accelerations or NULL. */
+    const double *given[COURSE_ORDERS];
+    unit from[COURSE_WIDTH_MAX], to[COURSE_WIDTH_MAX]; /* units of the columns that they are from */
+} course_keys;
+
+/* It is small, since large scenes have one for each body. */
 typedef struct course {
     polynomial polynomial; /* count == 0: it is a table */
     size_t numbers;        /* coefficients of all of its components */
-    spline table;
+    course_keys *keys;     /* of a table, else NULL */
     bool hold;
-    void *memory;
-    /* The numbers of a table, row by row, before their units are converted, and its velocities and
-     * accelerations or NULL. */
-    const double *given[COURSE_ORDERS];
-    unit from[COURSE_WIDTH_MAX], to[COURSE_WIDTH_MAX]; /* units of the columns that they are from */
 } course;
 
 /* Frees the memory that course_read allocated. */

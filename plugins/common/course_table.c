@@ -117,7 +117,7 @@ static void fill_keys(const course_table *t, const double *number, size_t stride
 
 /* Sets the spline through the values, or through them with the velocities that are given. `key` has
  * room for all three. */
-static bool course_set_spline(const course *c, const course_table *t, const course_question *q,
+static bool course_set_spline(const course_keys *c, const course_table *t, const course_question *q,
                               imp_interval *key, size_t *piece)
 {
     const size_t width = t->numbers.columns - 1, all = t->numbers.rows * width;
@@ -131,7 +131,8 @@ static bool course_set_spline(const course *c, const course_table *t, const cour
 
 /* Copies the table's numbers, and the velocities and accelerations that were given, to where there
  * is room for them. */
-static void keep_given(course *c, const course_table *t, const course_question *q, double *room)
+static void keep_given(course_keys *c, const course_table *t, const course_question *q,
+                       double *room)
 {
     const size_t width = t->numbers.columns - 1;
     const imp_value *further[] = {&q->v[COURSE_VELOCITIES], &q->v[COURSE_ACCELERATIONS]};
@@ -159,17 +160,19 @@ static imp_status course_set_table(course *c, const course_table *t, const cours
     const int degree = imp_is_given(&q->v[COURSE_ACCELERATIONS]) ? SPLINE_QUINTIC : SPLINE_CUBIC;
     const size_t bytes = spline_bytes(degree, keys, width, 0);
     imp_interval *key = malloc(3 * keys * width * sizeof *key);
-    c->memory = malloc(bytes + COURSE_ORDERS * keys * width * sizeof(double));
-    if (key == NULL || c->memory == NULL) {
+    const size_t given = COURSE_ORDERS * keys * width * sizeof(double);
+    course_keys *made = malloc(sizeof *made + bytes + given);
+    c->keys = made; /* course_clear frees it */
+    if (key == NULL || made == NULL) {
         free(key);
         return IMP_STATUS_INTERNAL;
     }
-    c->table = spline_place(degree, keys, width, 0, c->memory);
-    c->table.kinked = linear && !sloped;
-    fill_times(t, c->table.time);
-    keep_given(c, t, q, (double *)(void *)((char *)c->memory + bytes));
+    *made = (course_keys){.table = spline_place(degree, keys, width, 0, made + 1)};
+    made->table.kinked = linear && !sloped;
+    fill_times(t, made->table.time);
+    keep_given(made, t, q, (double *)(void *)((char *)(made + 1) + bytes));
     size_t piece;
-    const bool good = course_set_spline(c, t, q, key, &piece);
+    const bool good = course_set_spline(made, t, q, key, &piece);
     free(key);
     if (!good)
         return imp_reject(
@@ -177,7 +180,7 @@ static imp_status course_set_table(course *c, const course_table *t, const cours
             "row %zu of the table is too far from the one before for the time between "
             "them: speeds are not finite",
             piece + 2);
-    spline_grow(&c->table);
+    spline_grow(&made->table);
     return IMP_STATUS_OK;
 }
 
