@@ -82,6 +82,7 @@ core_tree = \
     core/tree/pose.c core/tree/pose.h core/tree/posed_terms.h \
     core/tree/posing.c core/tree/posing.h \
     core/tree/tree.c core/tree/tree_internal.h \
+    core/tree/triple.h \
     core/tree/vec.h
 
 core_plugin = \

@@ -6,6 +6,7 @@
 
 #include "core/bounds/tuning.h"
 #include "core/tree/posed_terms.h"
+#include "core/tree/triple.h"
 
 #include <impinge/quad.h>
 
@@ -26,11 +27,10 @@ IMP_QUAD_INLINE moved slice_at(const node *n, double mid, double half, slice *s)
     const imp_quad s0 = imp_quad_all(d > 0 ? (mid - c) / d : 0),
                    k = imp_quad_all(d > 0 ? half / d : 0);
     const quadratic3 *f = &n->f;
-    const imp_quad bt = imp_quad_load(f->bt), qtt = imp_quad_load(f->qtt);
-    const imp_quad qut = imp_quad_load(f->qut), qvt = imp_quad_load(f->qvt);
-    const imp_quad bu = imp_quad_load(f->bu) + qut * s0, bv = imp_quad_load(f->bv) + qvt * s0;
-    const imp_quad quu = imp_quad_load(f->quu), quv = imp_quad_load(f->quv),
-                   qvv = imp_quad_load(f->qvv);
+    const imp_quad bt = triple_load(f->bt), qtt = triple_load(f->qtt);
+    const imp_quad qut = triple_load(f->qut), qvt = triple_load(f->qvt);
+    const imp_quad bu = triple_load(f->bu) + qut * s0, bv = triple_load(f->bv) + qvt * s0;
+    const imp_quad quu = triple_load(f->quu), quv = triple_load(f->quv), qvv = triple_load(f->qvv);
     const imp_quad quw = qut * k, qvw = qvt * k;
     imp_quad_store(s->bu, bu);
     imp_quad_store(s->bv, bv);
@@ -108,7 +108,7 @@ IMP_QUAD_INLINE imp_quad take_posed_terms(const node *n, difference *r, slice *s
         imp_quad_store(r->swing[r->posed][i], x.swing[i]);
     }
     ++r->posed;
-    return imp_quad_load(n->posed_e) + x.bow + part * across_all +
+    return triple_load(n->posed_e) + x.bow + part * across_all +
            imp_quad_all(THIRD_ROUNDING * UNIT_ROUNDOFF) * third;
 }
 
@@ -116,7 +116,7 @@ IMP_QUAD_INLINE imp_quad take_posed_terms(const node *n, difference *r, slice *s
 IMP_QUAD_INLINE imp_quad remainders(const node *a, const node *b, difference *r, moved *ma,
                                     moved *mb)
 {
-    imp_quad ea = imp_quad_load(a->e), eb = imp_quad_load(b->e);
+    imp_quad ea = triple_load(a->e), eb = triple_load(b->e);
     r->posed = 0;
     if (a->pose == NULL && b->pose == NULL) return ea + eb;
     if (a->pose != NULL)
@@ -160,10 +160,10 @@ IMP_QUAD_INLINE void recentre(const node *a, const node *b, const time_window *w
     r->way_count = 0;
     moved ma = slice_at(a, r->mid, r->half, &r->a), mb = slice_at(b, r->mid, r->half, &r->b);
     const imp_quad e = remainders(a, b, r, &ma, &mb);
-    const imp_quad apart = imp_quad_load(b->f.a) - imp_quad_load(a->f.a);
+    const imp_quad apart = triple_load(b->f.a) - triple_load(a->f.a);
     const imp_quad delta = apart + (mb.shift - ma.shift), drift = mb.drift - ma.drift,
                    bend = mb.bend - ma.bend;
-    const imp_quad motion = imp_quad_load(a->motion) + imp_quad_load(b->motion);
+    const imp_quad motion = triple_load(a->motion) + triple_load(b->motion);
     const imp_quad slack =
         e + imp_quad_all(MOTION_ROUNDING * UNIT_ROUNDOFF) * (imp_quad_abs(apart) + motion);
     const imp_quad squares = ma.squares + mb.squares;

@@ -6,19 +6,18 @@
 
 #include "core/bounds/quadratic.h"
 #include "core/bounds/window_lanes.h"
+#include "core/tree/triple.h"
 
 /* Bounds the distance of a node's points from a + bt s; rounding is not included. */
 IMP_QUAD_INLINE imp_quad reach_of(const node *n)
 {
     const quadratic3 *f = &n->f;
-    const imp_quad slopes = imp_quad_abs(imp_quad_load(f->bu)) + imp_quad_abs(imp_quad_load(f->bv));
-    const imp_quad still = imp_quad_abs(imp_quad_load(f->quu)) +
-                           imp_quad_abs(imp_quad_load(f->quv)) +
-                           imp_quad_abs(imp_quad_load(f->qvv));
-    const imp_quad turning = imp_quad_abs(imp_quad_load(f->qut)) +
-                             imp_quad_abs(imp_quad_load(f->qvt)) +
-                             imp_quad_abs(imp_quad_load(f->qtt));
-    return slopes + still + turning + imp_quad_load(n->e);
+    const imp_quad slopes = imp_quad_abs(triple_load(f->bu)) + imp_quad_abs(triple_load(f->bv));
+    const imp_quad still = imp_quad_abs(triple_load(f->quu)) + imp_quad_abs(triple_load(f->quv)) +
+                           imp_quad_abs(triple_load(f->qvv));
+    const imp_quad turning = imp_quad_abs(triple_load(f->qut)) + imp_quad_abs(triple_load(f->qvt)) +
+                             imp_quad_abs(triple_load(f->qtt));
+    return slopes + still + turning + triple_load(n->e);
 }
 
 /* Encloses B - A over the window t = mid + half w, coordinate by coordinate: delta + drift w, plus
@@ -41,8 +40,8 @@ IMP_QUAD_INLINE passing passing_of(const node *a, const node *b, double mid, dou
     const double a0 = r->d[t] > 0 ? (mid - r->c[t]) / r->d[t] : 0;
     const double b0 = s->d[t] > 0 ? (mid - s->c[t]) / s->d[t] : 0;
     const double ak = r->d[t] > 0 ? half / r->d[t] : 0, bk = s->d[t] > 0 ? half / s->d[t] : 0;
-    const imp_quad ta = imp_quad_load(a->f.bt), tb = imp_quad_load(b->f.bt);
-    const imp_quad apart = imp_quad_load(b->f.a) - imp_quad_load(a->f.a);
+    const imp_quad ta = triple_load(a->f.bt), tb = triple_load(b->f.bt);
+    const imp_quad apart = triple_load(b->f.a) - triple_load(a->f.a);
     const imp_quad reach = reach_of(a) + reach_of(b);
     const imp_quad size = imp_quad_abs(apart) + imp_quad_abs(ta) + imp_quad_abs(tb) + reach;
     return (passing){apart + (tb * imp_quad_all(b0) - ta * imp_quad_all(a0)),

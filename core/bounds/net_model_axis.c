@@ -8,6 +8,7 @@
 #include "core/bounds/gjk.h"
 #include "core/bounds/net_hull.h"
 #include "core/bounds/quadratic.h"
+#include "core/tree/triple.h"
 
 /* The pair from the side of the net: `way` is 1 where the model is B, -1 where it is A. */
 typedef struct net_model {
@@ -52,13 +53,13 @@ IMP_QUAD_INLINE bowl bowl_at(const node *f, double t)
 {
     const quadratic3 *q = &f->f;
     const imp_quad s = imp_quad_all(model_time(f, t));
-    bowl z = {.e = imp_quad_load(f->e),
-              .quu = imp_quad_load(q->quu),
-              .quv = imp_quad_load(q->quv),
-              .qvv = imp_quad_load(q->qvv)};
-    z.middle = (imp_quad_load(q->bt) + imp_quad_load(q->qtt) * s) * s;
-    z.bu = imp_quad_load(q->bu) + imp_quad_load(q->qut) * s;
-    z.bv = imp_quad_load(q->bv) + imp_quad_load(q->qvt) * s;
+    bowl z = {.e = triple_load(f->e),
+              .quu = triple_load(q->quu),
+              .quv = triple_load(q->quv),
+              .qvv = triple_load(q->qvv)};
+    z.middle = (triple_load(q->bt) + triple_load(q->qtt) * s) * s;
+    z.bu = triple_load(q->bu) + triple_load(q->qut) * s;
+    z.bv = triple_load(q->bv) + triple_load(q->qvt) * s;
     for (int i = 0; i < 3; ++i) z.form[i] = (imp_quad){z.bu[i], z.bv[i], z.quu[i], z.qvv[i]};
     return z;
 }
@@ -150,10 +151,9 @@ _Static_assert(3 + 4 + 7 + 16 + 3 + QUADRATIC_ROUNDING + 6 + 8 <= NET_MODEL_ROUN
 IMP_QUAD_INLINE double net_model_slack_upper(const net_model *p, vec3 n, double late, double *size)
 {
     const quadratic3 *q = &p->model->f;
-    const imp_quad form = imp_quad_abs(imp_quad_load(q->bu)) + imp_quad_abs(imp_quad_load(q->bv)) +
-                          imp_quad_abs(imp_quad_load(q->quu)) +
-                          imp_quad_abs(imp_quad_load(q->quv)) +
-                          imp_quad_abs(imp_quad_load(q->qvv)) + imp_quad_load(p->model->motion);
+    const imp_quad form = imp_quad_abs(triple_load(q->bu)) + imp_quad_abs(triple_load(q->bv)) +
+                          imp_quad_abs(triple_load(q->quu)) + imp_quad_abs(triple_load(q->quv)) +
+                          imp_quad_abs(triple_load(q->qvv)) + triple_load(p->model->motion);
     double error = 0;
     *size = 0;
     for (int i = 0; i < 3; ++i) {

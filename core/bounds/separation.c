@@ -11,6 +11,7 @@
 #include "core/bounds/normal_field.h"
 #include "core/bounds/strategy.h"
 #include "core/bounds/tuning.h"
+#include "core/tree/triple.h"
 
 #include <impinge/quad.h>
 
@@ -274,7 +275,7 @@ double separation_farthest_of_balls(const node *a, const node *b)
 static inline imp_quad centre_at(const quadratic3 *f, double time)
 {
     const imp_quad s = imp_quad_all(time);
-    return imp_quad_load(f->a) + (imp_quad_load(f->bt) + imp_quad_load(f->qtt) * s) * s;
+    return triple_load(f->a) + (triple_load(f->bt) + triple_load(f->qtt) * s) * s;
 }
 
 double separation_centres(const node *a, const node *b, double t)

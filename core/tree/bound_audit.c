@@ -10,6 +10,7 @@
 #include "core/common/random.h"
 #include "core/tree/distance_audit.h"
 #include "core/tree/posed_terms.h"
+#include "core/tree/triple.h"
 
 static bool region_holds(const imp_region *r, const double p[3])
 {
@@ -34,16 +35,16 @@ IMP_QUAD_INLINE imp_quad polynomial(const node *n, const double p[3], imp_quad *
     const quadratic3 *f = &n->f;
     imp_quad s[3];
     for (int j = 0; j < 3; ++j) s[j] = imp_quad_all(parameter_within(n, p, j));
-    const imp_quad term[10] = {imp_quad_load(f->a),
-                               imp_quad_load(f->bu) * s[0],
-                               imp_quad_load(f->bv) * s[1],
-                               imp_quad_load(f->bt) * s[2],
-                               imp_quad_load(f->quu) * s[0] * s[0],
-                               imp_quad_load(f->quv) * s[0] * s[1],
-                               imp_quad_load(f->qut) * s[0] * s[2],
-                               imp_quad_load(f->qvv) * s[1] * s[1],
-                               imp_quad_load(f->qvt) * s[1] * s[2],
-                               imp_quad_load(f->qtt) * s[2] * s[2]};
+    const imp_quad term[10] = {triple_load(f->a),
+                               triple_load(f->bu) * s[0],
+                               triple_load(f->bv) * s[1],
+                               triple_load(f->bt) * s[2],
+                               triple_load(f->quu) * s[0] * s[0],
+                               triple_load(f->quv) * s[0] * s[1],
+                               triple_load(f->qut) * s[0] * s[2],
+                               triple_load(f->qvv) * s[1] * s[1],
+                               triple_load(f->qvt) * s[1] * s[2],
+                               triple_load(f->qtt) * s[2] * s[2]};
     imp_quad sum = imp_quad_all(0), size = sum;
     for (int k = 0; k < 10; ++k) {
         sum += term[k];
@@ -117,14 +118,14 @@ IMP_QUAD_INLINE bool outside_edges(const node *n, const double p[3], const doubl
                    slack = {eval_error[0], eval_error[1], eval_error[2], 0};
     const imp_quad third = third_order(&terms, s, &size), t = imp_quad_all(s[2]);
     const imp_quad off = at - polynomial(n, p, &rounding) - third;
-    const imp_quad box = imp_quad_load(n->posed_e) + slack + rounding +
+    const imp_quad box = triple_load(n->posed_e) + slack + rounding +
                          imp_quad_all(THIRD_ROUNDING * UNIT_ROUNDOFF) * size +
                          imp_quad_all(POINT_ROUNDING * UNIT_ROUNDOFF) * imp_quad_abs(at) +
                          imp_quad_all(OFF_ROUNDING * UNIT_ROUNDOFF) * imp_quad_abs(off);
     for (int j = 0; j < 3; ++j) {
         const imp_quad axis =
-            imp_quad_load(n->pose->turn[0][j]) +
-            (imp_quad_load(n->pose->turn[1][j]) + imp_quad_load(n->pose->turn[2][j]) * t) * t;
+            triple_load(n->pose->turn[0][j]) +
+            (triple_load(n->pose->turn[1][j]) + triple_load(n->pose->turn[2][j]) * t) * t;
         imp_quad along = imp_quad_all(0);
         double way = 0, reach = 0;
         for (int i = 0; i < 3; ++i) {

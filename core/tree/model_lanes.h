@@ -9,6 +9,7 @@
 
 #include "core/base/rounding.h"
 #include "core/tree/node.h"
+#include "core/tree/triple.h"
 
 /* The models of three coordinates side by side
  * ============================================
@@ -93,16 +94,16 @@ IMP_QUAD_INLINE void lanes_take_spread(node *n, const model_lanes *m)
 
 IMP_QUAD_INLINE void lanes_take_polynomial(quadratic3 *f, const model_lanes *m)
 {
-    imp_quad_store(f->a, m->a);
-    imp_quad_store(f->bu, m->b[0]);
-    imp_quad_store(f->bv, m->b[1]);
-    imp_quad_store(f->bt, m->b[2]);
-    imp_quad_store(f->quu, m->q[IMP_UU]);
-    imp_quad_store(f->quv, m->q[IMP_UV]);
-    imp_quad_store(f->qut, m->q[IMP_UT]);
-    imp_quad_store(f->qvv, m->q[IMP_VV]);
-    imp_quad_store(f->qvt, m->q[IMP_VT]);
-    imp_quad_store(f->qtt, m->q[IMP_TT]);
+    triple_store(f->a, m->a);
+    triple_store(f->bu, m->b[0]);
+    triple_store(f->bv, m->b[1]);
+    triple_store(f->bt, m->b[2]);
+    triple_store(f->quu, m->q[IMP_UU]);
+    triple_store(f->quv, m->q[IMP_UV]);
+    triple_store(f->qut, m->q[IMP_UT]);
+    triple_store(f->qvv, m->q[IMP_VV]);
+    triple_store(f->qvt, m->q[IMP_VT]);
+    triple_store(f->qtt, m->q[IMP_TT]);
 }
 
 /* Whether polynomial, remainder and range are finite. */
@@ -129,13 +130,13 @@ IMP_QUAD_INLINE bool lanes_are_sound(const model_lanes *m)
 IMP_QUAD_INLINE void lanes_take(node *n, const model_lanes *m)
 {
     lanes_take_polynomial(&n->f, m);
-    imp_quad_store(n->e, m->e);
+    triple_store(n->e, m->e);
     memcpy(n->lo, &m->lo, sizeof n->lo);
     memcpy(n->hi, &m->hi, sizeof n->hi);
     const imp_quad motion = imp_quad_abs(m->b[2]) + imp_quad_all(2) * imp_quad_abs(m->q[IMP_TT]) +
                             imp_quad_abs(m->q[IMP_UT]) + imp_quad_abs(m->q[IMP_VT]);
     PAD_COVERS(8, 3); /* three sums */
-    imp_quad_store(n->motion, quad_padded_upper(motion, 8));
+    triple_store(n->motion, quad_padded_upper(motion, 8));
     lanes_take_spread(n, m);
     n->bounded = true;
     n->normal = vec3_cross(vec3_from(n->f.bu), vec3_from(n->f.bv));

@@ -36,11 +36,11 @@ typedef enum tree_kind {
     TREE_KINDS
 } tree_kind;
 
-/* Coefficients of the three coordinates' polynomials in s = (p - c) / d; the fourth number of each
- * is 0, so that vector instructions take x, y, z at once. */
+/* Coefficients of the three coordinates' polynomials in s = (p - c) / d. Vector instructions take x,
+ * y, z at once (triple.h). */
 typedef struct quadratic3 {
-    double a[4], bu[4], bv[4], bt[4];
-    double quu[4], quv[4], qut[4], qvv[4], qvt[4], qtt[4];
+    double a[3], bu[3], bv[3], bt[3];
+    double quu[3], quv[3], qut[3], qvv[3], qvt[3], qtt[3];
 } quadratic3;
 
 /* Marks a node that is known to have no net. Its fields are never read. */
@@ -49,9 +49,9 @@ extern const net net_none;
 typedef struct node {
     imp_region region;
     quadratic3 f;               /* with e, encloses the surface over the region; length */
-    double e[4];                /* remainder; length; then 0 */
+    double e[3];                /* remainder; length */
     double lo[3], hi[3];        /* axis-aligned box; length, world space */
-    double motion[4];           /* >= |bt| + 2 |qtt| + |qut| + |qvt|, then 0; length */
+    double motion[3];           /* >= |bt| + 2 |qtt| + |qut| + |qvt|; length */
     vec3 normal;                /* bu x bv, any length; 0 where the node has none */
     double radius;              /* of a ball around a that holds the surface; rate trees only */
     double extent[3];           /* how much u, v, t move a point across the region, about; length */
@@ -70,7 +70,7 @@ typedef struct node {
     struct span *span;               /* its poses (posing.h); NULL: not known */
     const struct shape_model *still; /* model of the shape; the node is its image under */
     const struct pose_lanes *pose;   /* the pose (posed_terms.h); NULL: use e, always valid */
-    double posed_e[4];               /* the rest of e beside posed terms, then 0; length */
+    double posed_e[3];               /* the rest of e beside posed terms; length */
     _Atomic(struct node *) halves;   /* the last one made; NULL: there is none */
 } node;
 

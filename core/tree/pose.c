@@ -8,6 +8,7 @@
 
 #include "core/tree/model_lanes.h"
 #include "core/tree/posed_terms.h"
+#include "core/tree/triple.h"
 
 /* --- Vector layout ---------------------------------------------------------------------------- */
 
@@ -59,13 +60,21 @@ bool shape_model_take(shape_model *s, const imp_model model[3])
 
 /* --- The product ------------------------------------------------------------------------------ */
 
-IMP_QUAD_INLINE imp_quad size_times(const double column[3][4], const double y[4])
+/* Like pose_times, for columns of four numbers. */
+IMP_QUAD_INLINE imp_quad sizes_times(const double column[3][4], const double y[3])
+{
+    return imp_quad_load(column[0]) * imp_quad_all(y[0]) +
+           imp_quad_load(column[1]) * imp_quad_all(y[1]) +
+           imp_quad_load(column[2]) * imp_quad_all(y[2]);
+}
+
+IMP_QUAD_INLINE imp_quad size_times(const double column[3][3], const double y[3])
 {
     return imp_quad_abs(pose_times(column, y));
 }
 
 /* >= norm |x| for x >= 0; roundings: square 1, sums 2, halved by the root, root 1, product 1. */
-static double turned_upper(double norm, const double x[4])
+static double turned_upper(double norm, const double x[3])
 {
     PAD_COVERS(8, 2 + 1 + 1);
     const double length = sqrt(x[0] * x[0] + x[1] * x[1] + x[2] * x[2]);
@@ -80,8 +89,8 @@ typedef struct pose_sizes {
 
 IMP_QUAD_INLINE imp_quad size_of(const double *at, const double *by, const double *by_square)
 {
-    return imp_quad_abs(imp_quad_load(at)) + imp_quad_abs(imp_quad_load(by)) +
-           imp_quad_abs(imp_quad_load(by_square));
+    return imp_quad_abs(triple_load(at)) + imp_quad_abs(triple_load(by)) +
+           imp_quad_abs(triple_load(by_square));
 }
 
 IMP_QUAD_INLINE pose_sizes sizes_of(const pose_lanes *p)
@@ -101,14 +110,14 @@ typedef struct relative_shape {
     double most[4];   /* >= |z| */
 } relative_shape;
 
-IMP_QUAD_INLINE relative_shape shape_about(const shape_model *s, const double pivot[4])
+IMP_QUAD_INLINE relative_shape shape_about(const shape_model *s, const double pivot[3])
 {
     relative_shape z;
-    const imp_quad p = imp_quad_load(pivot), half = imp_quad_all(0.5);
-    const imp_quad a = imp_quad_load(s->a) - p;
-    const imp_quad middle = half * (imp_quad_load(s->quu) + imp_quad_load(s->qvv));
-    const imp_quad below = imp_quad_abs(imp_quad_load(s->lo) - p);
-    const imp_quad above = imp_quad_abs(imp_quad_load(s->hi) - p);
+    const imp_quad p = triple_load(pivot), half = imp_quad_all(0.5);
+    const imp_quad a = triple_load(s->a) - p;
+    const imp_quad middle = half * (triple_load(s->quu) + triple_load(s->qvv));
+    const imp_quad below = imp_quad_abs(triple_load(s->lo) - p);
+    const imp_quad above = imp_quad_abs(triple_load(s->hi) - p);
     PAD_COVERS(2, 1);
     imp_quad_store(z.a, a);
     imp_quad_store(z.middle, middle);
@@ -139,18 +148,18 @@ IMP_QUAD_INLINE void take_coefficients(const shape_model *s, const relative_shap
     double near[3][4]; /* S */
     const imp_quad half = imp_quad_all(0.5);
     for (int j = 0; j < 3; ++j)
-        imp_quad_store(near[j], imp_quad_load(p->turn[0][j]) + half * imp_quad_load(p->turn[2][j]));
-    m->a = pose_times(p->turn[0], z->a) + imp_quad_load(p->shift[0]) -
+        imp_quad_store(near[j], triple_load(p->turn[0][j]) + half * triple_load(p->turn[2][j]));
+    m->a = pose_times(p->turn[0], z->a) + triple_load(p->shift[0]) -
            half * pose_times(p->turn[2], z->middle);
-    m->b[0] = pose_times(near, s->bu);
-    m->b[1] = pose_times(near, s->bv);
-    m->b[2] = pose_times(p->turn[1], z->both) + imp_quad_load(p->shift[1]);
-    m->q[IMP_UU] = pose_times(near, s->quu);
-    m->q[IMP_UV] = pose_times(near, s->quv);
-    m->q[IMP_VV] = pose_times(near, s->qvv);
+    m->b[0] = sizes_times(near, s->bu);
+    m->b[1] = sizes_times(near, s->bv);
+    m->b[2] = pose_times(p->turn[1], z->both) + triple_load(p->shift[1]);
+    m->q[IMP_UU] = sizes_times(near, s->quu);
+    m->q[IMP_UV] = sizes_times(near, s->quv);
+    m->q[IMP_VV] = sizes_times(near, s->qvv);
     m->q[IMP_UT] = pose_times(p->turn[1], s->bu);
     m->q[IMP_VT] = pose_times(p->turn[1], s->bv);
-    m->q[IMP_TT] = pose_times(p->turn[2], z->both) + imp_quad_load(p->shift[2]);
+    m->q[IMP_TT] = pose_times(p->turn[2], z->both) + triple_load(p->shift[2]);
 }
 
 /* Bounds the terms of third order, and of fourth order, that the lemma (polynomial) folds. */
@@ -183,14 +192,13 @@ IMP_QUAD_INLINE imp_quad rounding(const shape_model *s, const relative_shape *z,
                                   const pose_sizes *of)
 {
     double size[4];
-    const imp_quad others =
-        imp_quad_abs(imp_quad_load(s->bu)) + imp_quad_abs(imp_quad_load(s->bv)) +
-        imp_quad_abs(imp_quad_load(s->quu)) + imp_quad_abs(imp_quad_load(s->quv)) +
-        imp_quad_abs(imp_quad_load(s->qvv));
+    const imp_quad others = imp_quad_abs(triple_load(s->bu)) + imp_quad_abs(triple_load(s->bv)) +
+                            imp_quad_abs(triple_load(s->quu)) + imp_quad_abs(triple_load(s->quv)) +
+                            imp_quad_abs(triple_load(s->qvv));
     imp_quad_store(size, imp_quad_all(TURNED) * imp_quad_abs(imp_quad_load(z->a)) +
                              imp_quad_all(OTHERS) * others);
     return imp_quad_all(UNIT_ROUNDOFF) *
-           (pose_times(of->turn, size) + imp_quad_all(MOVED) * imp_quad_load(of->shift));
+           (sizes_times(of->turn, size) + imp_quad_all(MOVED) * imp_quad_load(of->shift));
 }
 
 /* Lemma (remainder). |R delta| is at most |R| e, coordinate by coordinate, and norm |e| as a whole;
@@ -205,8 +213,8 @@ IMP_QUAD_INLINE imp_quad rest(const shape_model *s, const relative_shape *z, con
                               const pose_sizes *sizes)
 {
     double far[4];
-    imp_quad_store(far, imp_quad_load(z->most) + imp_quad_load(s->e));
-    return folded_fourth(s, p) + pose_times(p->turn_error, far) + imp_quad_load(p->shift_error) +
+    imp_quad_store(far, imp_quad_load(z->most) + triple_load(s->e));
+    return folded_fourth(s, p) + pose_times(p->turn_error, far) + triple_load(p->shift_error) +
            rounding(s, z, sizes);
 }
 
@@ -223,7 +231,7 @@ PAD_COVERS(32, 7 + 1 + 2 + 3 + 2 + 5 + 2);
 IMP_QUAD_INLINE imp_quad posed_rest_upper(const shape_model *s, const pose_sizes *sizes,
                                           imp_quad rest)
 {
-    const imp_quad edges = pose_times(sizes->turn, s->e);
+    const imp_quad edges = sizes_times(sizes->turn, s->e);
     const imp_quad all = rest + imp_quad_all(EDGE_ROUNDING * UNIT_ROUNDOFF) * edges;
     return quad_padded_upper(all, 32) + POSE_UNDERFLOW;
 }
@@ -269,19 +277,19 @@ IMP_QUAD_INLINE range_lanes range_of_box(const shape_model *s, const pose_lanes 
                                          const pose_sizes *sizes)
 {
     double z[4], size[4], w[4];
-    const imp_quad lo = imp_quad_load(s->lo), hi = imp_quad_load(s->hi), half = imp_quad_all(0.5);
-    const imp_quad m = half * lo + half * hi, at = m - imp_quad_load(p->pivot);
+    const imp_quad lo = triple_load(s->lo), hi = triple_load(s->hi), half = imp_quad_all(0.5);
+    const imp_quad m = half * lo + half * hi, at = m - triple_load(p->pivot);
     imp_quad_store(z, at);
     imp_quad_store(size, imp_quad_abs(at));
     imp_quad_store(w, imp_quad_max(imp_quad_abs(hi - m), imp_quad_abs(m - lo)));
-    const imp_quad c0 = pose_times(p->turn[0], z) + imp_quad_load(p->shift[0]);
-    const range_lanes c = bow(pose_times(p->turn[1], z) + imp_quad_load(p->shift[1]),
-                              pose_times(p->turn[2], z) + imp_quad_load(p->shift[2]));
+    const imp_quad c0 = pose_times(p->turn[0], z) + triple_load(p->shift[0]);
+    const range_lanes c = bow(pose_times(p->turn[1], z) + triple_load(p->shift[1]),
+                              pose_times(p->turn[2], z) + triple_load(p->shift[2]));
     const imp_quad slip = imp_quad_all(16 * UNIT_ROUNDOFF) *
-                          (pose_times(sizes->turn, size) + imp_quad_load(sizes->shift));
+                          (sizes_times(sizes->turn, size) + imp_quad_load(sizes->shift));
     const imp_quad reach =
         quad_padded_upper(pose_times(p->turn_most, w) + pose_times(p->turn_error, size) +
-                              imp_quad_load(p->shift_error) + slip,
+                              triple_load(p->shift_error) + slip,
                           16) +
         POSE_UNDERFLOW;
     return (range_lanes){c0 + c.lo - reach, c0 + c.hi + reach};
@@ -291,7 +299,7 @@ IMP_QUAD_INLINE range_lanes range_of_box(const shape_model *s, const pose_lanes 
 IMP_QUAD_INLINE range_lanes range_of_ball(const relative_shape *z, const pose_lanes *p)
 {
     const imp_quad reach = imp_quad_all(turned_upper(p->norm, z->most));
-    const imp_quad lo = imp_quad_load(p->shift_lo), hi = imp_quad_load(p->shift_hi);
+    const imp_quad lo = triple_load(p->shift_lo), hi = triple_load(p->shift_hi);
     const imp_quad pad = imp_quad_all(4 * UNIT_ROUNDOFF);
     return (range_lanes){lo - reach - pad * (imp_quad_abs(lo) + reach),
                          hi + reach + pad * (imp_quad_abs(hi) + reach)};
@@ -319,10 +327,10 @@ IMP_QUAD_INLINE bool take(node *n, const shape_model *s, const pose_lanes *p)
     take_range(s, &z, p, &sizes, &m);
     m.rate[0] = pose_times(p->turn_most, s->rate_u);
     m.rate[1] = pose_times(p->turn_most, s->rate_v);
-    m.rate[2] = pose_times(p->turn_rate, z.most) + imp_quad_load(p->shift_rate);
+    m.rate[2] = pose_times(p->turn_rate, z.most) + triple_load(p->shift_rate);
     if (!lanes_are_bounded(&m) || !lanes_are_sound(&m)) return false;
     lanes_take(n, &m);
-    imp_quad_store(n->posed_e, posed_rest_upper(s, &sizes, left));
+    triple_store(n->posed_e, posed_rest_upper(s, &sizes, left));
     n->still = s;
     n->pose = p;
     return true;

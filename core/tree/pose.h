@@ -10,24 +10,24 @@
  * A shape is a part of a surface before its maps, if it does not move by itself: order-2 Taylor
  * models in s_u and s_v. A pose is the rotation and shift by rigid maps over a span of times:
  * polynomials of degree 2 in s_t. Their product is the node: it takes a twentieth of the work of an
- * inclusion through the maps, and shape and pose each serve many nodes. Arrays hold x, y, z and a
- * 0. */
+ * inclusion through the maps, and shape and pose each serve many nodes. Arrays hold x, y
+ * and z. */
 
 typedef struct shape_model {
-    double a[4], bu[4], bv[4], quu[4], quv[4], qvv[4]; /* length */
-    double e[4], lo[4], hi[4];                         /* as in imp_model; length */
-    double rate_u[4], rate_v[4];
+    double a[3], bu[3], bv[3], quu[3], quv[3], qvv[3]; /* length */
+    double e[3], lo[3], hi[3];                         /* as in imp_model; length */
+    double rate_u[3], rate_v[3];                       /* not loaded as triples */
 } shape_model;
 
 typedef struct pose_lanes {
-    double turn[3][3][4];    /* the matrix; coefficient of 1, s, s^2; column; row */
-    double shift[3][4];      /* coefficients of 1, s, s^2; length */
-    double turn_error[3][4]; /* remainders, by column and row; */
-    double turn_most[3][4];  /* >= |entry|; */
-    double turn_rate[3][4];  /* 1 / time */
-    double shift_error[4], shift_lo[4], shift_hi[4];
-    double shift_rate[4]; /* length / time */
-    double pivot[4];      /* length */
+    double turn[3][3][3];    /* the matrix; coefficient of 1, s, s^2; column; row */
+    double shift[3][3];      /* coefficients of 1, s, s^2; length */
+    double turn_error[3][3]; /* remainders, by column and row; */
+    double turn_most[3][3];  /* >= |entry|; */
+    double turn_rate[3][3];  /* 1 / time */
+    double shift_error[3], shift_lo[3], shift_hi[3];
+    double shift_rate[3]; /* length / time */
+    double pivot[3];      /* length */
     double norm;          /* >= |turn x| / |x| */
 } pose_lanes;
 

@@ -6,6 +6,7 @@
 #include <impinge/quad.h>
 
 #include "core/tree/pose.h"
+#include "core/tree/triple.h"
 
 /* Terms of third order, and a remainder that turns
  * ================================================
@@ -37,11 +38,11 @@ typedef struct posed_terms {
 } posed_terms;
 
 /* Matrix times vector, column by column. */
-IMP_QUAD_INLINE imp_quad pose_times(const double column[3][4], const double y[4])
+IMP_QUAD_INLINE imp_quad pose_times(const double column[3][3], const double y[3])
 {
-    return imp_quad_load(column[0]) * imp_quad_all(y[0]) +
-           imp_quad_load(column[1]) * imp_quad_all(y[1]) +
-           imp_quad_load(column[2]) * imp_quad_all(y[2]);
+    return triple_load(column[0]) * imp_quad_all(y[0]) +
+           triple_load(column[1]) * imp_quad_all(y[1]) +
+           triple_load(column[2]) * imp_quad_all(y[2]);
 }
 
 /* Rounding of edges and bow along an axis, in units of u (|R0| + |R1| + |R2|) e; posed_e includes
@@ -72,14 +73,14 @@ IMP_QUAD_INLINE posed_terms posed_terms_at(const node *n, double s0, double k)
     x.vtt = pose_times(p->turn[2], s->bv);
     x.bow = imp_quad_all(0);
     for (int j = 0; j < 3; ++j)
-        x.bow += imp_quad_abs(imp_quad_load(p->turn[2][j])) * imp_quad_all(k * k * s->e[j]);
+        x.bow += imp_quad_abs(triple_load(p->turn[2][j])) * imp_quad_all(k * k * s->e[j]);
     imp_quad edge[4], swing[4]; /* columns of x, y, z, then rows */
     edge[3] = swing[3] = imp_quad_all(0);
     for (int j = 0; j < 3; ++j) {
         const imp_quad e = imp_quad_all(s->e[j]);
-        const imp_quad bend = imp_quad_load(p->turn[2][j]) * at;
-        const imp_quad slope = imp_quad_load(p->turn[1][j]) + bend;
-        edge[j] = (imp_quad_load(p->turn[0][j]) + slope * at) * e;
+        const imp_quad bend = triple_load(p->turn[2][j]) * at;
+        const imp_quad slope = triple_load(p->turn[1][j]) + bend;
+        edge[j] = (triple_load(p->turn[0][j]) + slope * at) * e;
         swing[j] = (slope + bend) * by * e;
     }
     imp_quad_transpose(edge);
