@@ -41,6 +41,7 @@ core_base = \
 
 core_surface = \
     core/surface/aside.c core/surface/aside.h \
+    core/surface/aside_look.c core/surface/aside_search.h \
     core/surface/carried.c core/surface/carried.h \
     core/surface/clocked.c core/surface/clocked.h \
     core/surface/commute.c core/surface/commute.h \

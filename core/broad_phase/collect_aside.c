@@ -6,7 +6,6 @@
 
 #include "core/base/rounding.h"
 #include "core/broad_phase/frame_list.h"
-#include "core/surface/aside.h"
 
 /* Pairs whose surfaces share motion that is not at the end of their maps, or that cancels: it is
  * set aside.
@@ -51,8 +50,9 @@ imp_code frames_set_aside(collection *all, frame_list *frames, size_t k, double 
     const imp_region over = region_make((double[3]){0, 0, times.lo}, (double[3]){0, 0, times.hi});
     shared_aside shared;
     int asked = 0;
-    const imp_status status =
-        surface_shared_aside(s, bare, &over, 0.25 * all->slip_most, &all->spans, &shared, &asked);
+    aside_look *const looks[2] = {&frames->at[of_pair[0]].aside, &frames->at[of_pair[1]].aside};
+    const imp_status status = surface_shared_aside(s, bare, &over, 0.25 * all->slip_most,
+                                                   &all->spans, looks, &shared, &asked);
     if (status != IMP_STATUS_OK) return distance_fault(s[asked], status, error);
     for (int side = 0; side < 2; ++side) {
         if (shared.which[side] == 0) continue;

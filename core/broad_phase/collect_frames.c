@@ -98,8 +98,12 @@ imp_code frames_find(collection *all, frame_list *frames, const candidate *c,
         if (are_equal(&frames->at[*found], view)) return IMP_SUCCESS;
     frame *made = frame_list_next(frames);
     if (made == NULL) return error_set_memory(error);
-    *made = (frame){
-        .of = of, .next = frames->first[of], .view = *view, .made = *c, .seen = {.from = INFINITY}};
+    *made = (frame){.of = of,
+                    .next = frames->first[of],
+                    .view = *view,
+                    .made = *c,
+                    .seen = {.from = INFINITY},
+                    .aside = {.from = INFINITY}};
     bool exists = true;
     if (view->left_out != c->left_out || view->held.count > 0 || view->aside.which != 0 ||
         !isnan(view->moment)) {

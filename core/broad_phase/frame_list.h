@@ -5,6 +5,7 @@
 
 #include "core/bounds/time_window.h"
 #include "core/broad_phase/collection.h"
+#include "core/surface/aside.h"
 #include "core/surface/glance.h"
 
 /* Frames of candidates, for collect_frames.c, collect_glances.c and collect_half_planes.c. */
@@ -16,6 +17,7 @@ typedef struct frame {
     surface_view view;
     candidate made;
     surface_glance seen; /* at the common times of a pair; from > to: not made yet */
+    aside_look aside;    /* at the common times of a pair, for maps to set aside */
     bool is_looked_at;   /* for maps to hold */
     held_maps may_hold;  /* once looked at: surface_held_maps */
 } frame;

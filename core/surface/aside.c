@@ -2,14 +2,13 @@
  * SPDX-License-Identifier: Apache-2.0 */
 #include <config.h>
 
-#include "core/surface/aside.h"
+#include "core/surface/aside_search.h"
 
 #include <impinge/model.h>
 #include <string.h>
 
 #include "core/base/rounding.h"
 #include "core/surface/carried.h"
-#include "core/surface/commute.h"
 #include "core/surface/region.h"
 
 /* Lemma. Let all maps of a and b be exact rotations and shifts. Let L_a be the product of maps of
@@ -23,28 +22,7 @@
  * If that is at most d for all y, the distance of p and q under K_a and K_b differs from that under
  * all maps by at most c_a + c_b + d, at each time. x may take the part of y. */
 
-enum { MOVING_MOST = 6, MAPS_MOST = 8 };
-
-/* --- Parts of a surface's maps ---------------------------------------------------------------- */
-
-/* The surface under some of its maps, in their order. */
-typedef struct part {
-    surface of;
-    mapping maps[MAPS_MOST];
-} part;
-
-/* Takes the maps of which the bit is set. Precondition: there are at most MAPS_MOST. */
-static void part_of(const surface *s, uint32_t which, part *p)
-{
-    size_t count = 0;
-    p->of = *s;
-    for (size_t k = 0; k < s->map_count; ++k)
-        if ((which >> k & 1u) != 0) p->maps[count++] = s->maps[k];
-    p->of.maps = p->maps;
-    p->of.map_count = count;
-}
-
-static imp_status pose_of(const part *p, const imp_region *times, imp_pose *pose)
+static imp_status pose_of(const aside_part *p, const imp_region *times, imp_pose *pose)
 {
     if (p->of.map_count > 0) return surface_pose_of_maps(&p->of, 0, p->of.map_count, times, pose);
     memset(pose, 0, sizeof *pose);
@@ -55,7 +33,7 @@ static imp_status pose_of(const part *p, const imp_region *times, imp_pose *pose
     return IMP_STATUS_OK;
 }
 
-static bool are_same_maps(const part p[2])
+static bool are_same_maps(const aside_part p[2])
 {
     bool same = p[0].of.map_count == p[1].of.map_count;
     for (size_t k = 0; k < p[0].of.map_count && same; ++k)
@@ -65,40 +43,8 @@ static bool are_same_maps(const part p[2])
 
 /* --- What may be set aside -------------------------------------------------------------------- */
 
-/* The maps of both surfaces: how far those that are exchanged move images, and which move. */
-typedef struct search {
-    const surface *const *s;
-    const imp_region *times;
-    double enough;
-    double exchange[2][MAPS_MOST][MAPS_MOST]; /* of maps i < j; length */
-    struct {
-        int side;
-        size_t map;
-    } moving[2 * MAPS_MOST];
-    size_t count; /* of those that move */
-    size_t *spans;
-    int *asked;
-} search;
-
-static imp_status look_at_maps(search *q, int side)
-{
-    map_law law[MAPS_MOST];
-    const surface *s = q->s[side];
-    *q->asked = side;
-    for (size_t k = 0; k < s->map_count; ++k) {
-        imp_pose pose;
-        const imp_status status = surface_pose_of_maps(s, k, k + 1, q->times, &pose);
-        if (status != IMP_STATUS_OK) return status;
-        law[k] = map_law_of(&pose);
-        if (law[k].moves) q->moving[q->count].side = side, q->moving[q->count++].map = k;
-        for (size_t i = 0; i < k; ++i)
-            q->exchange[side][i][k] = map_laws_exchange_upper(&law[i], &law[k]);
-    }
-    return IMP_STATUS_OK;
-}
-
 /* Bounds how far images move if each of these maps is moved past all later ones that remain. */
-static double exchanges_upper(const search *q, int side, uint32_t which)
+static double exchanges_upper(const aside_search *q, int side, uint32_t which)
 {
     double sum = 0;
     for (size_t i = 0; i < q->s[side]->map_count; ++i)
@@ -110,14 +56,13 @@ static double exchanges_upper(const search *q, int side, uint32_t which)
 
 /* --- Whether both parts do the same ----------------------------------------------------------- */
 
-/* Whether both parts seem to move points of this size alike, by a look at three times: few do, and
+/* Whether both parts seem to move points of this size alike, by a look at some moments: few do, and
  * bounds over time cost much. */
-static bool seem_same(const part p[2], const imp_region *times, double size, double enough)
+static bool seem_same(const aside_part p[2], const imp_region *times, double size, double enough)
 {
-    static const double at[3] = {0.618, 0.237, 1};
     enum { POINTS = 4 };
-    for (int k = 0; k < 3; ++k) {
-        const double t = times->lo[2] + at[k] * (times->hi[2] - times->lo[2]);
+    for (int k = 0; k < ASIDE_MOMENTS; ++k) {
+        const double t = aside_moment(times, k);
         double x[2][3 * POINTS];
         for (int side = 0; side < 2; ++side) {
             memset(x[side], 0, sizeof x[side]);
@@ -170,7 +115,8 @@ static bool needs_more(double part_of_times, double apart, double enough, size_t
 
 /* Halves the times until the difference is small enough over each part. *most: the greatest;
  * INFINITY: it is not known to be. */
-static imp_status compare(const search *q, const part p[2], double far, double enough, double *most)
+static imp_status compare(const aside_search *q, const aside_part p[2], double far, double enough,
+                          double *most)
 {
     const double all = q->times->hi[2] - q->times->lo[2];
     const size_t spans = *q->spans;
@@ -205,13 +151,13 @@ static imp_status compare(const search *q, const part p[2], double far, double e
 }
 
 /* Bounds |y| for points of a surface under the maps that remain. */
-static imp_status reach_upper(const search *q, int side, uint32_t aside, const imp_model bare[3],
-                              double *reach)
+static imp_status reach_upper(const aside_search *q, int side, uint32_t aside,
+                              const imp_model bare[3], double *reach)
 {
-    part kept;
+    aside_part kept;
     imp_pose pose;
     imp_model way[3];
-    part_of(q->s[side], ~aside, &kept);
+    aside_part_of(q->s[side], ~aside, &kept);
     *q->asked = side;
     const imp_status status = pose_of(&kept, q->times, &pose);
     if (status != IMP_STATUS_OK) return status;
@@ -221,16 +167,16 @@ static imp_status reach_upper(const search *q, int side, uint32_t aside, const i
 }
 
 /* Looks at one choice of maps. *slip INFINITY: they may not be set aside. */
-static imp_status try_choice(const search *q, const uint32_t which[2], const imp_model bare[2][3],
-                             double *slip)
+static imp_status try_choice(const aside_search *q, const uint32_t which[2],
+                             const imp_model bare[2][3], double *slip)
 {
-    part p[2];
+    aside_part p[2];
     double reach[2], most;
     *slip = INFINITY;
     const double exchanged =
         sum_upper(exchanges_upper(q, 0, which[0]), exchanges_upper(q, 1, which[1]));
-    if (!(exchanged <= q->enough)) return IMP_STATUS_OK;
-    for (int side = 0; side < 2; ++side) part_of(q->s[side], which[side], &p[side]);
+    if (!(exchanged <= q->enough) || aside_images_differ(q, which)) return IMP_STATUS_OK;
+    for (int side = 0; side < 2; ++side) aside_part_of(q->s[side], which[side], &p[side]);
     if (are_same_maps(p)) return *slip = exchanged, IMP_STATUS_OK;
     const double size = surface_size_upper(bare[0]) + surface_size_upper(bare[1]);
     if (!seem_same(p, q->times, size, q->enough)) return IMP_STATUS_OK;
@@ -253,7 +199,8 @@ static int bits_of(unsigned choice)
 }
 
 /* Tries the choices of the most maps first. */
-static imp_status try_choices(const search *q, const imp_model bare[2][3], shared_aside *found)
+static imp_status try_choices(const aside_search *q, const imp_model bare[2][3],
+                              shared_aside *found)
 {
     for (int bits = (int)q->count; bits > 1; --bits)
         for (unsigned choice = 1; choice < 1u << q->count; ++choice) {
@@ -273,16 +220,17 @@ static imp_status try_choices(const search *q, const imp_model bare[2][3], share
 
 imp_status surface_shared_aside(const surface *const s[2], const imp_model bare[2][3],
                                 const imp_region *times, double enough, size_t *spans,
-                                shared_aside *found, int *asked)
+                                aside_look *const looks[2], shared_aside *found, int *asked)
 {
-    search q = {.s = s, .times = times, .enough = enough, .spans = spans, .asked = asked};
+    aside_search q = {
+        .s = s, .times = times, .enough = enough, .spans = spans, .looks = looks, .asked = asked};
     *found = (shared_aside){{0, 0}, 0};
     imp_status status = IMP_STATUS_OK;
     for (int side = 0; side < 2 && status == IMP_STATUS_OK; ++side) {
-        if (s[side]->map_count > MAPS_MOST || !carried_exactly(s[side])) return IMP_STATUS_OK;
-        status = look_at_maps(&q, side);
+        if (s[side]->map_count > ASIDE_MAPS_MOST || !carried_exactly(s[side])) return IMP_STATUS_OK;
+        status = aside_look_at_maps(&q, side);
     }
-    if (status == IMP_STATUS_OK && q.count >= 2 && q.count <= MOVING_MOST)
+    if (status == IMP_STATUS_OK && q.count >= 2 && q.count <= ASIDE_MOVING_MOST)
         status = try_choices(&q, bare, found);
     return status == IMP_STATUS_UNBOUNDED ? IMP_STATUS_OK : status;
 }
@@ -303,9 +251,9 @@ imp_status surface_move_from_aside(const surface *s, size_t maps, maps_aside asi
                                    double x[3])
 {
     surface one = *s;
-    one.map_count = maps < MAPS_MOST ? maps : MAPS_MOST;
-    part p;
-    part_of(&one, aside.which, &p);
+    one.map_count = maps < ASIDE_MAPS_MOST ? maps : ASIDE_MAPS_MOST;
+    aside_part p;
+    aside_part_of(&one, aside.which, &p);
     const imp_status status = surface_move_outward(&p.of, 0, t, 1, x);
     return status == IMP_STATUS_OK ? surface_move_outward(s, maps, t, 1, x) : status;
 }

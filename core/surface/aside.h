@@ -19,13 +19,27 @@ typedef struct shared_aside {
     double slip;
 } shared_aside;
 
+/* What a question found of one surface of at most ASIDE_KEPT maps, for its other pairs over the same
+ * times: few parts of maps do the same, and most differ in where they move the origin. */
+enum { ASIDE_KEPT = 2 };
+typedef struct aside_image {
+    bool is_asked, is_known;
+    double x[3]; /* length */
+} aside_image;
+typedef struct aside_look {
+    double from, to; /* the times; from > to: nothing was found yet */
+    bool moves[ASIDE_KEPT];
+    double exchange;                    /* how far its two maps, exchanged, move images; length */
+    aside_image image[1 << ASIDE_KEPT]; /* of the origin at one moment, under each choice of maps */
+} aside_look;                           /* begins as {.from = INFINITY} */
+
 /* Finds such maps with a slip of at most `enough`. `bare` holds models of each surface before its
  * maps, of which only the ranges are used; neither moves by itself. *spans: how many parts of time
- * may still be looked at, some microseconds each; it falls. *asked becomes the side whose
- * callback was called last, for error messages. */
+ * may still be looked at, some microseconds each; it falls. `looks` holds what is known of either
+ * surface. *asked becomes the side whose callback was called last, for error messages. */
 imp_status surface_shared_aside(const surface *const s[2], const imp_model bare[2][3],
                                 const imp_region *times, double enough, size_t *spans,
-                                shared_aside *found, int *asked);
+                                aside_look *const looks[2], shared_aside *found, int *asked);
 
 /* Makes the surface of the first `maps` maps of s, but for those that are set aside, at all times
  * of s. The errors of its points have the slip. NULL: no memory. */

@@ -203,11 +203,18 @@ static shared_aside shared_of(const imp_scene *scene, double size, double enough
     const surface *const s[2] = {scene_surface(scene, 0, 0), scene_surface(scene, 1, 0)};
     const imp_region times = region_make((double[3]){0, 0, 0}, (double[3]){0, 0, 1});
     imp_model bare[2][3];
-    shared_aside shared;
+    aside_look look[2] = {{.from = INFINITY}, {.from = INFINITY}};
+    aside_look *const looks[2] = {&look[0], &look[1]};
+    shared_aside shared, again;
     int asked;
     for (int k = 0; k < 6; ++k) bare[k / 3][k % 3] = imp_between(-size, size);
-    ck_assert_int_eq(surface_shared_aside(s, bare, &times, enough, spans, &shared, &asked),
+    ck_assert_int_eq(surface_shared_aside(s, bare, &times, enough, spans, looks, &shared, &asked),
                      IMP_STATUS_OK);
+    size_t rest = *spans;
+    ck_assert_int_eq(surface_shared_aside(s, bare, &times, enough, &rest, looks, &again, &asked),
+                     IMP_STATUS_OK);
+    if (rest == *spans) /* else there may be too few spans left */
+        ck_assert(again.which[0] == shared.which[0] && again.which[1] == shared.which[1]);
     return shared;
 }
 
