@@ -61,7 +61,7 @@ void axis_cross(const imp_model a[3], const imp_model b[3], imp_model out[3]);
     "center1 + k1*d + C*(w1 - k1*d) + S*(k2*w0 - k0*w2); "                                         \
     "center2 + k2*d + C*(w2 - k2*d) + S*(k0*w1 - k1*w0)"
 
-/* Of `turned` nothing is kept: its entries are those of the unit vector. Large scenes have many
+/* Entries of `turned` are those of the unit vector, and are not kept: large scenes have many
  * frames. */
 typedef struct axis_frame {
     near_constant unit[3], along[3][3], across[3][3];
