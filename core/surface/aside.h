@@ -19,8 +19,8 @@ typedef struct shared_aside {
     double slip;
 } shared_aside;
 
-/* What a question found of one surface of at most ASIDE_KEPT maps, for its other pairs over the same
- * times: few parts of maps do the same, and most differ in where they move the origin. */
+/* What a question found of one surface of at most ASIDE_KEPT maps, for its other pairs over the
+ * same times: few parts of maps do the same, and most differ in where they move the origin. */
 enum { ASIDE_KEPT = 2 };
 typedef struct aside_image {
     bool is_asked, is_known;

@@ -36,8 +36,8 @@ typedef enum tree_kind {
     TREE_KINDS
 } tree_kind;
 
-/* Coefficients of the three coordinates' polynomials in s = (p - c) / d. Vector instructions take x,
- * y, z at once (triple.h). */
+/* Coefficients of the three coordinates' polynomials in s = (p - c) / d. Vector instructions take
+ * x, y, z at once (triple.h). */
 typedef struct quadratic3 {
     double a[3], bu[3], bv[3], bt[3];
     double quu[3], quv[3], qut[3], qvv[3], qvt[3], qtt[3];

@@ -89,7 +89,7 @@ static inline void make_nested(uint64_t *state, meeting *m, double size)
     make_shell(state, &m->a);
     double *const a = (double *)&m->a.f, *const b = (double *)&m->b.f;
     for (size_t k = 0; k < sizeof m->a.f / sizeof *a; ++k)
-        b[k] = k % 4 < 3 ? a[k] + little * random_between(state, -1, 1) : 0;
+        b[k] = a[k] + little * random_between(state, -1, 1);
     const double way = random_bits(state) % 2 ? 1 : -1;
     for (int i = 0; i < 3; ++i) {
         m->b.f.qut[i] *= way;

@@ -315,7 +315,7 @@ static meeting nested(uint64_t *state, double s[4], double g)
     move_centre(&m.b.f, s[0] - s[2], s[1] - s[3]);
     double *const b = (double *)&m.b.f;
     for (size_t k = 0; k < sizeof m.b.f / sizeof *b; ++k)
-        if (k % 4 < 3) b[k] += little * random_between(state, -1, 1);
+        b[k] += little * random_between(state, -1, 1);
     node *both[2] = {&m.a, &m.b};
     for (int side = 0; side < 2; ++side) {
         const quadratic3 *f = &both[side]->f;
@@ -361,7 +361,7 @@ END_TEST
 static void enlarge(node *n, int k)
 {
     double *const all[] = {(double *)&n->f, n->e, n->motion};
-    const size_t counts[] = {sizeof n->f / sizeof(double), 4, 4};
+    const size_t counts[] = {sizeof n->f / sizeof(double), 3, 3};
     for (int part = 0; part < 3; ++part)
         for (size_t i = 0; i < counts[part]; ++i) all[part][i] = ldexp(all[part][i], k);
 }
