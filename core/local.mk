@@ -193,6 +193,8 @@ core_bounds = \
     core/bounds/dividing_surface.c core/bounds/dividing_surface.h core/bounds/tangent_forms.h \
     core/bounds/quadratic.h \
     core/bounds/separation.c core/bounds/separation.h \
+    core/bounds/spine.c core/bounds/spine.h \
+    core/bounds/spine_part.c core/bounds/spine_radius.c core/bounds/spine_reduce.c \
     core/bounds/strategy.c core/bounds/strategy.h \
     core/bounds/time_window.c core/bounds/time_window.h \
     core/bounds/trial_rate.h \

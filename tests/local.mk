@@ -112,6 +112,7 @@ check_suites = \
     tests/unit/test_upper_times \
     tests/unit/test_sliding \
     tests/unit/test_spheres \
+    tests/unit/test_spines \
     tests/unit/test_steps \
     tests/unit/test_surface \
     tests/unit/test_survey \

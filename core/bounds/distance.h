@@ -107,6 +107,9 @@ typedef struct distance_slips {
     bool is_bare[2];        /* whether `carry` counts from before the other's maps */
     signed char orbits[2];  /* surface_has_orbits: 1 true, -1 false, 0 not known yet */
     unsigned char searches; /* in which piece_sides_cut was tried */
+    float apart;            /* a bound of the distance at all times, found by spines; length */
+    float hope;             /* spines may show more than a limit below it, once tried; length */
+    unsigned looks;         /* pairs of the two that were looked at, as far as it is counted */
 } distance_slips;
 
 /* Two nodes, each of which may be separated from the other's whole surface. */

@@ -19,15 +19,10 @@
 enum { CORNER_ROUNDING = 8 };
 PAD_COVERS(16, 8 + 3 + 2);
 
-/* False: it moves by itself, or has no bounds. */
-static bool take_cell(const surface *piece, const imp_region *all, piece_cell *cell,
-                      imp_status *status)
+bool piece_cell_of(const imp_model x[3], piece_cell *cell)
 {
-    imp_model x[3];
     double sum = 0;
     *cell = (piece_cell){.is_hoop = false};
-    *status = surface_include_inner(piece, all, surface_inner_maps(piece), x);
-    if (*status != IMP_STATUS_OK) return false;
     for (int i = 0; i < 3; ++i) {
         const imp_model *m = &x[i];
         const double uv = m->q[IMP_UV],
@@ -45,6 +40,16 @@ static bool take_cell(const surface *piece, const imp_region *all, piece_cell *c
     }
     cell->slack = padded_upper(sqrt(sum), 16) + ROOT_UNDERFLOW;
     return true;
+}
+
+/* False: it moves by itself, or has no bounds. */
+static bool take_cell(const surface *piece, const imp_region *all, piece_cell *cell,
+                      imp_status *status)
+{
+    imp_model x[3];
+    *cell = (piece_cell){.is_hoop = false};
+    *status = surface_include_inner(piece, all, surface_inner_maps(piece), x);
+    return *status == IMP_STATUS_OK && piece_cell_of(x, cell);
 }
 
 /* Lemma. Points of one orbit are images of each other by rotations about the line, so a point of

@@ -31,6 +31,10 @@ typedef struct piece_cell {
     bool is_hoop;
 } piece_cell;
 
+/* Makes the cell, no hoop, of a part of a surface that has these models. False: it moves, or has no
+ * bounds. */
+bool piece_cell_of(const imp_model x[3], piece_cell *cell);
+
 /* Cells of all pieces of a surface. */
 typedef struct piece_corners {
     arena_store *store; /* of its memory; NULL: the heap */

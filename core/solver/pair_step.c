@@ -4,7 +4,9 @@
 
 #include "core/solver/pair_step.h"
 
+#include "core/base/rounding.h"
 #include "core/bounds/piece_sides.h"
+#include "core/bounds/spine.h"
 
 imp_code pair_measure(const pair *p, const candidate_pair *both, imp_error *error)
 {
@@ -24,8 +26,43 @@ static distance_sides sides_of(const pair *p, candidate_pair *both, bool keeps_p
                             .is_audited = tree_is_audited(a->tree)};
 }
 
-imp_code pair_look(const pair *p, candidate_pair *both, double limit, strategy_goal goal,
-                   bool keeps_proof, trial_rate *sliding, distance_outcome *seen, imp_error *error)
+/* --- Spines ----------------------------------------------------------------------------------- */
+
+/* Spines are tried once this many pairs of two surfaces have been looked at, since most need fewer,
+ * and as many pairs later if the limit of a minimum distance has fallen to where they may do. */
+enum { LOOKS_BEFORE_SPINES = 8 };
+
+static bool are_spines_due(distance_slips *slips, double limit)
+{
+    slips->looks += slips->looks <= LOOKS_BEFORE_SPINES;
+    return slips->looks == LOOKS_BEFORE_SPINES ||
+           (slips->looks > LOOKS_BEFORE_SPINES && limit < slips->hope);
+}
+
+/* Whether both surfaces are farther apart than the limit, at all times. */
+static imp_code look_at_spines(const pair *p, candidate_pair *both, double limit, bool keeps_proof,
+                               distance_outcome *seen, imp_error *error)
+{
+    distance_slips *slips = &both->slips;
+    if (keeps_proof) return IMP_SUCCESS;
+    if (!(slips->apart > limit) && are_spines_due(slips, limit)) {
+        const distance_sides sides = sides_of(p, both, keeps_proof);
+        double lower, hope;
+        const imp_code code = spine_part(&sides, limit, &lower, &hope, error);
+        if (code != IMP_SUCCESS) return code;
+        if (lower > slips->apart) slips->apart = -float_upper(-lower);
+        slips->hope = (float)hope;
+    }
+    if (slips->apart > seen->lower) seen->lower = slips->apart;
+    seen->is_apart = slips->apart > limit;
+    return IMP_SUCCESS;
+}
+
+/* --- Looks ------------------------------------------------------------------------------------ */
+
+static imp_code look_at_nodes(const pair *p, candidate_pair *both, double limit, strategy_goal goal,
+                              bool keeps_proof, trial_rate *sliding, distance_outcome *seen,
+                              imp_error *error)
 {
     const slide_signs signs = {.start = p->window.lo,
                                .is_whole = surface_is_whole(p->a->surface, &p->a->region) &&
@@ -33,7 +70,6 @@ imp_code pair_look(const pair *p, candidate_pair *both, double limit, strategy_g
                                .is_parted = vec3_norm1(p->axis) > 0,
                                .slides = p->slides,
                                .sliding = sliding};
-    *seen = distance_outcome_none(&p->window);
     if (!p->a->bounded || !p->b->bounded) return IMP_SUCCESS;
     if (pair_has_cluster(p)) {
         const distance_sides sides = sides_of(p, both, keeps_proof);
@@ -47,6 +83,16 @@ imp_code pair_look(const pair *p, candidate_pair *both, double limit, strategy_g
     const imp_code code = distance_cut_sides(&sides, limit, seen, error);
     strategy_note_distances(&signs, seen->is_apart || seen->side >= 0);
     return code;
+}
+
+imp_code pair_look(const pair *p, candidate_pair *both, double limit, strategy_goal goal,
+                   bool keeps_proof, trial_rate *sliding, distance_outcome *seen, imp_error *error)
+{
+    *seen = distance_outcome_none(&p->window);
+    const imp_code code = look_at_spines(p, both, limit, keeps_proof, seen, error);
+    return code != IMP_SUCCESS || seen->is_apart
+               ? code
+               : look_at_nodes(p, both, limit, goal, keeps_proof, sliding, seen, error);
 }
 
 /* Where surfaces come to touch along a curve, one side would be split along all of it before the

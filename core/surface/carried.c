@@ -147,7 +147,13 @@ bool carried_exactly(const surface *s)
 imp_status carried_through(const surface *s, const imp_region *times, carried *x, size_t count,
                            imp_model way[][3])
 {
-    for (size_t k = 0; k < s->map_count; ++k) {
+    return carried_after(s, 0, times, x, count, way);
+}
+
+imp_status carried_after(const surface *s, size_t maps, const imp_region *times, carried *x,
+                         size_t count, imp_model way[][3])
+{
+    for (size_t k = maps; k < s->map_count; ++k) {
         imp_pose pose;
         double d;
         const imp_status status = carried_pose(s, k, times, &pose, &d);

@@ -77,6 +77,10 @@ void carried_pull_truly(const imp_pose *pose, double d, carried *x);
 imp_status carried_through(const surface *s, const imp_region *times, carried *x, size_t count,
                            imp_model way[][3]);
 
+/* Like carried_through, by the maps after the first `maps`. */
+imp_status carried_after(const surface *s, size_t maps, const imp_region *times, carried *x,
+                         size_t count, imp_model way[][3]);
+
 /* Moves the plane by the map of this pose and d, or back by its transposed turn. */
 void carried_push_plane(const imp_pose *pose, double d, carried_plane *x);
 void carried_pull_plane(const imp_pose *pose, double d, carried_plane *x);

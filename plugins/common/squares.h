@@ -41,16 +41,17 @@ static inline double inverse_lower(double x) { return imp_round_down(1 / x); }
  *
  *   r - q >= (r - Q) + (Q^2 - q^2) / (2 Q) >= 0.
  *
- * Else q^2 - r^2 = (q - r) (q + r), and 0 < q + r <= Q + r. A factor that underflows, or is 1 /
- * infinity, is not above 0 and taken as 0. */
+ * where any smaller factor than 1 / (2 Q) will do, too. Else q^2 - r^2 = (q - r) (q + r), and 0 <
+ * q + r <= Q + r. A factor that underflows, is 1 / infinity, or is infinite, since Q is 0, is taken
+ * as 0. */
 static inline imp_model beyond_radius(imp_model square, double r)
 {
     const double most = greatest_root_upper(&square);
     const double least = imp_larger(imp_round_down(sqrt(imp_larger(square.lo, 0))), 0);
     const double from = least >= r ? least : most <= r ? most : r;
     const double factor = inverse_lower(imp_sum_up(most <= r ? 2 * from : most + from));
-    const imp_model beyond =
-        imp_scale(imp_sub(square, imp_sqr(imp_num(from))), imp_larger(factor, 0));
+    const imp_model beyond = imp_scale(imp_sub(square, imp_sqr(imp_num(from))),
+                                       factor > 0 && factor < INFINITY ? factor : 0);
     return from == r ? beyond : imp_add(beyond, imp_sub(imp_num(from), imp_num(r)));
 }
 

@@ -128,6 +128,14 @@
                                                                                       ",1,1]}"
 #define CORNER "0.70710678118654757,0.70710678118654757"
 
+/* Poses of a wheel of radius 0.5 that rolls along x, by a table. */
+#define ROLLS                                                                                      \
+    "{'type':'keyframes','times':[0,0.25,0.5,0.75,1],'positions':[[0,0,0],[0.25,0,0],[0.5,0,0],"   \
+    "[0.75,0,0],[1,0,0]],'rotations':[[1,0,0,0],[0.96891242171064478,0,0,-0.24740395925452294],"   \
+    "[0.87758256189037276,0,0,-0.47942553860420301],[0.73168886887382090,0,0,-0."                  \
+    "68163876002333412],[0.54030230586813977,0,0,-0.84147098480789650]]}"
+#define TWIST "{'type':'twist','axis':[0,0,1],'rate':0.5}"
+
 #define FIVE "12346"
 
 /* --- Families --------------------------------------------------------------------------------- */
@@ -293,6 +301,31 @@ const everyday_family everyday_families[] = {
     {"disc between rails", BOX("6,1,1", "0,~-1.5,0") "," BOX("6,1,1", "0,@1.5,0"), "",
      TORUS("0.75", "0.25"), TURN(Z_AXIS, "20") "," MOVE("1,0,0"), BOND_NONE, 0, false, "1234", 500,
      "", ""},
+    /* turning beside others, without being round */
+    {"thread turns beside a wall", THREAD("1", "2"), TURN(Z_AXIS, "2") "," PLACE,
+     PLANE("@1.1,-2,-2", "0,4,0", "0,0,4"), SAME_PLACE, BOND_NONE, 0, false, "1234", 50, "", ""},
+    {"threads turn beside each other", THREAD("1", "2"), TURN(Z_AXIS, "2") "," PLACE,
+     THREAD("1", "2"), TURN(Z_AXIS, "-3") "," PUT("@2.2,0,0.1") "," SAME_PLACE, BOND_NONE, 0, false,
+     "1234", 1000, "", ""},
+    {"screw whirls in a smooth bore", CYLINDER("@1.3", "3", "0,0,0"), PLACE, THREAD("1", "2"),
+     TURN(Z_AXIS, "2") "," PUT("0.2,0,0") "," TURN(Z_AXIS, "3") "," SAME_PLACE, BOND_NONE, 0, false,
+     "1234", 50, "", ""},
+    {"shaft of 32 sides whirls in a bore", CYLINDER("@1", "3", "0,0,0"), PLACE,
+     LATHE("p 32 0.8:-1 0.8:1"),
+     TURN(Z_AXIS, "5") "," PUT("0.2,0,0") "," TURN(Z_AXIS, "3") "," SAME_PLACE, BOND_NONE, 0, false,
+     "1234", 50, "", ""},
+    {"roller of 64 sides on a table", BOX("5,1,4", "0.5,~-1,0"), PLACE,
+     LATHE("p 64 0.5:-0.5 0.5:0.5"), TURN(Z_AXIS, "-2") "," MOVE("1,0,0") "," SAME_PLACE, BOND_NONE,
+     0, false, "1234", 100, "", "4"},
+    {"roller of 64 sides by a table of poses", BOX("5,1,4", "0.5,~-1,0"), PLACE,
+     LATHE("p 64 0.5:-0.5 0.5:0.5"), ROLLS "," SAME_PLACE, BOND_NONE, 0, false, "1234", 100, "",
+     ""},
+    {"twisted bar turns in a bore", CYLINDER("@0.70710678118654757", "4", "0,0,0"), PLACE,
+     BOX("1,1,3", "0,0,0"), TWIST "," TURN(Z_AXIS, "2") "," SAME_PLACE, BOND_NONE, 0, false, "1234",
+     50, "", "4"},
+    {"oval cam turns beside a wall", "{'type':'ellipsoid','radii':[1,0.6,0.4]}",
+     TURN(Z_AXIS, "7") "," PLACE, PLANE("@1,-2,-2", "0,4,0", "0,0,4"), SAME_PLACE, BOND_NONE, 0,
+     false, "1234", 50, "", ""},
     /* straight profiles */
     {"hex nut in its socket", EXTRUSION(HEXAGON, "2") "}", PLACE,
      EXTRUSION(HEXAGON, "1") ",'ends':true}",
