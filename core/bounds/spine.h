@@ -43,10 +43,10 @@ imp_code spine_reduce(spine *of, const time_window *times, double goal, imp_erro
  * False: they have no bounds. */
 bool spine_node(const spine *of, double from, double to, imp_model x[3], node *n);
 
-/* Bounds the distance of two surfaces by their spines, at all times that both roots have: *lower is
- * a bound, or 0. Bounds below `limit` are of no use; where none above it is found, none is above
+/* Bounds the distance of two surfaces by their spines at these times, which both roots have: *lower
+ * is a bound, or 0. Bounds below `limit` are of no use; where none above it is found, none is above
  * *hope, about. IMP_ERROR_PLUGIN: a callback breaks the ABI. */
-imp_code spine_part(const distance_sides *of, double limit, double *lower, double *hope,
-                    imp_error *error);
+imp_code spine_part(const distance_sides *of, const time_window *times, double limit, double *lower,
+                    double *hope, imp_error *error);
 
 #endif

@@ -221,10 +221,10 @@ static imp_code measure(spine_query *q, int side, double limit, double *least, b
 #define ABOVE 0x1p-20
 #define BELOW 0.75
 
-imp_code spine_part(const distance_sides *of, double limit, double *lower, double *hope,
-                    imp_error *error)
+imp_code spine_part(const distance_sides *of, const time_window *times, double limit, double *lower,
+                    double *hope, imp_error *error)
 {
-    spine_query q = {.of = of, .times = pair_times(of->root[0], of->root[1]), .error = error};
+    spine_query q = {.of = of, .times = *times, .error = error};
     double least = 0;
     *lower = *hope = 0;
     for (int k = 0; k < 2; ++k) q.has[k] = spine_choose(of->root[k]->surface, &q.times, &q.line[k]);

@@ -28,8 +28,8 @@ typedef struct candidate {
 typedef struct candidate_pair {
     candidate *side[2];
     distance_slips slips;
-    unsigned rests; /* In slices of time: bit k tells that side k moves, but only so that distances
-                       differ by at most half of the list's slip from those of one moment. */
+    bool rests; /* In slices of time: it moves, but only so that distances differ by at most half of
+                   the list's slip from those of one moment. */
 } candidate_pair;
 
 static inline bool candidate_pairs_same_bodies(const candidate_pair *p, const candidate_pair *q)

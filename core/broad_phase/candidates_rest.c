@@ -9,7 +9,7 @@
 static size_t count_resting(const candidate_pair *pairs, size_t count)
 {
     size_t sides = 0;
-    for (size_t k = 0; k < count; ++k) sides += (pairs[k].rests & 1) + (pairs[k].rests >> 1);
+    for (size_t k = 0; k < count; ++k) sides += pairs[k].rests ? 2 : 0;
     return sides;
 }
 
@@ -47,9 +47,9 @@ imp_code candidates_rest(const candidate_list *list, size_t first, size_t count,
     moments->capacity = sides;
     imp_code code = IMP_SUCCESS;
     for (size_t k = first; k < first + count && code == IMP_SUCCESS; ++k) {
+        if (!pairs[k].rests) continue;
         const time_window times = times_in(&pairs[k], within);
         for (int side = 0; side < 2 && times.lo <= times.hi && code == IMP_SUCCESS; ++side) {
-            if ((pairs[k].rests >> side & 1) == 0) continue;
             candidate_moment *m = &moments->at[moments->count];
             m->pair = k;
             code = begin_moment(&pairs[k], side, times.lo, m, stats, error);

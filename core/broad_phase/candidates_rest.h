@@ -10,8 +10,9 @@
  * ======================================
  * A pair that only turns within itself, or along the other's symmetry, has at each time the same
  * distance but for the list's slip. In a search of a slice it therefore has trees of one moment of
- * that slice, so that its witness has a time in the slice. These trees last as long as the search:
- * the next slice has another moment. */
+ * that slice, so that its witness has a time in the slice. So has a side that does not move: its
+ * tree of all times would be followed to the smallest node in time, which is no root. These trees
+ * last as long as the search: the next slice has another moment. */
 
 /* A side of a pair that has such a tree. */
 typedef struct candidate_moment {

@@ -191,10 +191,11 @@ static void rest_in_slices(collection *all, candidate_pair *p, candidate *const 
 {
     const double slip = sum_upper(2 * own, *found);
     const imp_region over = region_make((double[3]){0, 0, times->lo}, (double[3]){0, 0, times->hi});
+    bool moves = false;
     if (!(slip <= all->slip_most)) return;
-    for (unsigned k = 0; k < 2; ++k)
-        p->rests |= (unsigned)may_move(tree_surface(side[k]->tree), &over) << k;
-    if (p->rests == 0) return;
+    for (int k = 0; k < 2; ++k) moves = moves || may_move(tree_surface(side[k]->tree), &over);
+    if (!moves) return;
+    p->rests = true;
     *found = slip;
     if (slip > all->list->slip) all->list->slip = slip;
 }

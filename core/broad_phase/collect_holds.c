@@ -69,7 +69,7 @@ imp_code frames_hold_pair(collection *all, frame_list *frames, size_t k, double 
     size_t *of_pair = frames->of_pair[k];
     time_window times;
     imp_code code = frames_make_roots(all, frames, k, &times, error);
-    if (code != IMP_SUCCESS || !(times.lo < times.hi) || p->rests != 0) return code;
+    if (code != IMP_SUCCESS || !(times.lo < times.hi) || p->rests) return code;
     bool slides[2] = {false, false};
     double sum = 0;
     for (int side = 0; side < 2 && code == IMP_SUCCESS; ++side) {

@@ -8,6 +8,7 @@
 #include "core/common/array.h"
 #include "core/common/clock.h"
 #include "core/scene/tolerances.h"
+#include "core/solver/pair_step.h"
 
 /* --- One task --------------------------------------------------------------------------------- */
 
@@ -74,6 +75,8 @@ static imp_code begin_task(clearance_search *c, imp_error *error)
         return code;
     }
     const time_window times = {c->answer.t_start, c->answer.t_end};
+    for (size_t k = 0; k < group->count && c->asked.slices > 1; ++k)
+        pair_look_anew(&c->list->pairs[group->first + k]);
     if (candidates_rest(c->list, group->first, group->count, &times, &c->moments, c->stats,
                         error) != IMP_SUCCESS)
         return error->code;

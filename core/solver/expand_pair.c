@@ -242,9 +242,12 @@ static imp_code expand_by_models(impact *im, pair *p, impact_state *state, imp_e
 {
     const time_window before = p->window;
     distance_outcome distances;
-    trial_rate *sliding = im->trials != NULL ? &im->trials[p->candidate_pair].sliding : NULL;
-    imp_code code = pair_look(p, impact_candidates(im, p), im->gamma_clear, GOAL_CONTACT,
-                              im->proof != NULL, sliding, &distances, error);
+    const pair_question q = {.limit = im->gamma_clear,
+                             .goal = GOAL_CONTACT,
+                             .keeps_proof = im->proof != NULL,
+                             .sliding = im->trials != NULL ? &im->trials[p->candidate_pair].sliding
+                                                           : NULL};
+    imp_code code = pair_look(p, impact_candidates(im, p), &q, &distances, error);
     if (code == IMP_SUCCESS && distances.is_apart) pair_note_test(im->proof, p, false);
     if (code != IMP_SUCCESS || distances.is_apart) return code;
     bool met;

@@ -247,8 +247,11 @@ static cut choose_cut(const min_distance *m, const pair *p, const distance_outco
  * `enough`, and at the other times no nearer than seen->lower, so that p->key[0] stays a bound. */
 static imp_code look(min_distance *m, pair *p, distance_outcome *seen, imp_error *error)
 {
-    const imp_code code = pair_look(p, &m->candidates[p->candidate_pair], enough(m), GOAL_DISTANCE,
-                                    m->proof != NULL, NULL, seen, error);
+    const pair_question q = {.limit = enough(m),
+                             .goal = GOAL_DISTANCE,
+                             .keeps_proof = m->proof != NULL,
+                             .within = &m->window};
+    const imp_code code = pair_look(p, &m->candidates[p->candidate_pair], &q, seen, error);
     const time_window before = p->window;
     p->window = seen->left;
     pair_note_look(m->proof, p, before);

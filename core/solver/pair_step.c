@@ -39,60 +39,72 @@ static bool are_spines_due(distance_slips *slips, double limit)
            (slips->looks > LOOKS_BEFORE_SPINES && limit < slips->hope);
 }
 
-/* Whether both surfaces are farther apart than the limit, at all times. */
-static imp_code look_at_spines(const pair *p, candidate_pair *both, double limit, bool keeps_proof,
+/* Whether both surfaces are farther apart than the limit, at all times of the search. */
+static imp_code look_at_spines(const pair *p, candidate_pair *both, const pair_question *q,
                                distance_outcome *seen, imp_error *error)
 {
     distance_slips *slips = &both->slips;
-    if (keeps_proof) return IMP_SUCCESS;
-    if (!(slips->apart > limit) && are_spines_due(slips, limit)) {
-        const distance_sides sides = sides_of(p, both, keeps_proof);
+    if (q->keeps_proof) return IMP_SUCCESS;
+    if (!(slips->apart > q->limit) && are_spines_due(slips, q->limit)) {
+        const distance_sides sides = sides_of(p, both, false);
+        const time_window all = pair_times(sides.root[0], sides.root[1]),
+                          times = q->within != NULL ? window_common(all, *q->within) : all;
         double lower, hope;
-        const imp_code code = spine_part(&sides, limit, &lower, &hope, error);
+        const imp_code code = spine_part(&sides, &times, q->limit, &lower, &hope, error);
         if (code != IMP_SUCCESS) return code;
         if (lower > slips->apart) slips->apart = -float_upper(-lower);
         slips->hope = (float)hope;
     }
     if (slips->apart > seen->lower) seen->lower = slips->apart;
-    seen->is_apart = slips->apart > limit;
+    seen->is_apart = slips->apart > q->limit;
     return IMP_SUCCESS;
+}
+
+void pair_look_anew(candidate_pair *both)
+{
+    both->slips.searches = 0;
+    both->slips.apart = both->slips.hope = 0;
+    both->slips.looks = 0;
 }
 
 /* --- Looks ------------------------------------------------------------------------------------ */
 
-static imp_code look_at_nodes(const pair *p, candidate_pair *both, double limit, strategy_goal goal,
-                              bool keeps_proof, trial_rate *sliding, distance_outcome *seen,
-                              imp_error *error)
+/* Whether the node has all points of the surface, at some times. */
+static bool is_all_of(const node *n, const node *root)
+{
+    return root->many != NULL ? n->many == root->many : surface_is_whole(n->surface, &n->region);
+}
+
+static imp_code look_at_nodes(const pair *p, candidate_pair *both, const pair_question *q,
+                              distance_outcome *seen, imp_error *error)
 {
     const slide_signs signs = {.start = p->window.lo,
                                .is_whole = surface_is_whole(p->a->surface, &p->a->region) &&
                                            surface_is_whole(p->b->surface, &p->b->region),
                                .is_parted = vec3_norm1(p->axis) > 0,
                                .slides = p->slides,
-                               .sliding = sliding};
+                               .sliding = q->sliding};
     if (!p->a->bounded || !p->b->bounded) return IMP_SUCCESS;
+    distance_sides sides = sides_of(p, both, q->keeps_proof);
     if (pair_has_cluster(p)) {
-        const distance_sides sides = sides_of(p, both, keeps_proof);
-        const bool is_first = p->a == sides.root[0] && p->b == sides.root[1];
-        return is_first ? piece_sides_cut(&sides, 1u << goal, limit, seen, error) : IMP_SUCCESS;
+        const bool is_first = is_all_of(p->a, sides.root[0]) && is_all_of(p->b, sides.root[1]);
+        return is_first ? piece_sides_cut(&sides, 1u << q->goal, q->limit, seen, error)
+                        : IMP_SUCCESS;
     }
-    if (!strategy_takes_distances(p->a, p->b, &signs, goal)) return IMP_SUCCESS;
-    distance_sides sides = sides_of(p, both, keeps_proof);
-    sides.seeks_contact = goal == GOAL_CONTACT;
-    sides.seeks_start = goal == GOAL_CONTACT && signs.is_whole;
-    const imp_code code = distance_cut_sides(&sides, limit, seen, error);
+    if (!strategy_takes_distances(p->a, p->b, &signs, q->goal)) return IMP_SUCCESS;
+    sides.seeks_contact = q->goal == GOAL_CONTACT;
+    sides.seeks_start = q->goal == GOAL_CONTACT && signs.is_whole;
+    const imp_code code = distance_cut_sides(&sides, q->limit, seen, error);
     strategy_note_distances(&signs, seen->is_apart || seen->side >= 0);
     return code;
 }
 
-imp_code pair_look(const pair *p, candidate_pair *both, double limit, strategy_goal goal,
-                   bool keeps_proof, trial_rate *sliding, distance_outcome *seen, imp_error *error)
+imp_code pair_look(const pair *p, candidate_pair *both, const pair_question *q,
+                   distance_outcome *seen, imp_error *error)
 {
     *seen = distance_outcome_none(&p->window);
-    const imp_code code = look_at_spines(p, both, limit, keeps_proof, seen, error);
-    return code != IMP_SUCCESS || seen->is_apart
-               ? code
-               : look_at_nodes(p, both, limit, goal, keeps_proof, sliding, seen, error);
+    const imp_code code = look_at_spines(p, both, q, seen, error);
+    return code != IMP_SUCCESS || seen->is_apart ? code : look_at_nodes(p, both, q, seen, error);
 }
 
 /* Where surfaces come to touch along a curve, one side would be split along all of it before the

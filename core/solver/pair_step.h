@@ -29,14 +29,28 @@ static inline resolution resolution_of(double near, double far)
  * whatever the errors of its points are, so for it nothing is evaluated yet. */
 imp_code pair_measure(const pair *p, const candidate_pair *both, imp_error *error);
 
+/* How a search looks at a pair. */
+typedef struct pair_question {
+    double limit; /* nodes farther apart do not matter; length */
+    strategy_goal goal;
+    bool
+        keeps_proof; /* a certificate is written, whose verifier does not believe a type's claims of
+                         symmetry, so that no point stands for others, and no screw motion is taken
+                         for rest */
+    const time_window *within; /* of the search; NULL: all times of the two surfaces */
+    trial_rate *sliding;       /* the candidate pair's count of trials, or NULL */
+} pair_question;
+
 /* Computes the distances of the pair's nodes from each other's whole surfaces, if
- * strategy_takes_distances; of two roots with many pieces, once for each goal, those of the pieces.
- * Nodes farther apart than `limit` do not matter; `sliding` is the candidate pair's count of
- * trials. `keeps_proof`: a certificate is written, whose verifier does not believe a type's claims
- * of symmetry, so that no point stands for others, and no screw motion is taken for rest.
- * IMP_ERROR_PLUGIN: a callback breaks the ABI. */
-imp_code pair_look(const pair *p, candidate_pair *both, double limit, strategy_goal goal,
-                   bool keeps_proof, trial_rate *sliding, distance_outcome *seen, imp_error *error);
+ * strategy_takes_distances; of two roots with many pieces, once for each goal, those of the pieces;
+ * and, once, whether spines part both surfaces (spine.h). IMP_ERROR_PLUGIN: a callback breaks the
+ * ABI. */
+imp_code pair_look(const pair *p, candidate_pair *both, const pair_question *q,
+                   distance_outcome *seen, imp_error *error);
+
+/* Forgets what has been tried of a pair of surfaces, and what was found of some times alone: for a
+ * search of another slice of time. */
+void pair_look_anew(candidate_pair *both);
 
 /* Returns the cut of the node that pair_look chose to be split alone; CUT_NONE: it chose none, or
  * the node's remainder is too small to matter. */

@@ -334,23 +334,26 @@ START_TEST(slices_of_what_turns_within_itself_cost_little)
         const char *a, *b;
         uint64_t slices, pairs_of_one;
         double apart;
-    } row[] = {{"cylinder radius=0.4 ends=true ! rotate axis=0,0,1 rate=100",
-                "box size=1,1,1 center=0.901,0,0.02", 4, 60, 0.001},
-               {"capsule radius=0.3 ! rotate axis=0,0,1 rate=20 ! translate velocity=0,0.3,0",
-                "box size=0.5,1,2 center=0.551,0.1,0.2", 4, 60, 0.001},
-               {"torus ! rotate axis=0,0,1 rate=20 ! rotate axis=1,0,0 angle=[0.3] ! translate "
-                "velocity=0,0,0.1",
-                "sphere radius=0.5 center=4,0.3,0.1", 3000, 50, NAN},
-               {"torus ! rotate axis=0,0,1 rate=20",
-                "torus minor_radius=0.2 ! rotate axis=0,0,1 "
-                "rate=-3 ! translate velocity=0,0,0.1",
-                1000, 20, NAN},
-               /* What rests at one moment of each slice: */
-               {"cylinder radius=0.4 height=0.5 ! rotate axis=0,0,1 rate=20 ! translate "
-                "offset=[[0.099,0,0]] ! rotate axis=0,0,1 rate=3",
-                "cylinder radius=0.5 height=2", 300, 50, 0.001},
-               {"disc radius=0.5 ! rotate axis=0,0,1 rate=189 ! translate offset=[[-1.3,-0.9,1.5]]",
-                "box size=1,0.8,0.6", 300, 100, NAN}};
+    } row[] = {
+        {"cylinder radius=0.4 ends=true ! rotate axis=0,0,1 rate=100",
+         "box size=1,1,1 center=0.901,0,0.02", 4, 60, 0.001},
+        {"capsule radius=0.3 ! rotate axis=0,0,1 rate=20 ! translate velocity=0,0.3,0",
+         "box size=0.5,1,2 center=0.551,0.1,0.2", 4, 60, 0.001},
+        {"torus ! rotate axis=0,0,1 rate=20 ! rotate axis=1,0,0 angle=[0.3] ! translate "
+         "velocity=0,0,0.1",
+         "sphere radius=0.5 center=4,0.3,0.1", 3000, 50, NAN},
+        {"torus ! rotate axis=0,0,1 rate=20",
+         "torus minor_radius=0.2 ! rotate axis=0,0,1 "
+         "rate=-3 ! translate velocity=0,0,0.1",
+         1000, 20, NAN},
+        /* What rests at one moment of each slice: */
+        {"cylinder radius=0.4 height=0.5 ! rotate axis=0,0,1 rate=20 ! translate "
+         "offset=[[0.099,0,0]] ! rotate axis=0,0,1 rate=3",
+         "cylinder radius=0.5 height=2", 300, 50, 0.001},
+        {"disc radius=0.5 ! rotate axis=0,0,1 rate=189 ! translate offset=[[-1.3,-0.9,1.5]]",
+         "box size=1,0.8,0.6", 300, 100, NAN},
+        /* The planes of a box are tried in each slice: */
+        {"disc radius=1 ! rotate axis=0,0,1 rate=7", "box size=1,1,1 center=1.6,0,0", 100, 8, 0.1}};
     for (size_t n = 0; n < sizeof row / sizeof *row; ++n) {
         imp_error error;
         imp_scene *scene = imp_scene_from_pair(registry, row[n].a, row[n].b, &error);

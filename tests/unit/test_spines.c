@@ -372,7 +372,7 @@ static void try_scene(double share, uint64_t *random, tally *sum)
         if (here < least) least = here;
     }
     const double limit = (1 - random_power(random, -10, 0)) * least;
-    ck_assert_int_eq(spine_part(&y.of, limit, &lower, &hope, &error), IMP_SUCCESS);
+    ck_assert_int_eq(spine_part(&y.of, &y.times, limit, &lower, &hope, &error), IMP_SUCCESS);
     sum->bounded += lower > limit;
     sum->near += lower > 0.9 * least;
     sum->refuted += lower > share * least + 1e-12;
