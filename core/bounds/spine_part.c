@@ -39,7 +39,7 @@ static double apart(const node *a, const node *b, double from, double to, double
     vec3 axis = {{0, 0, 0}};
     approach near = {0, 0.5 * from + 0.5 * to};
     const bool some = separation_approach(a, b, most, &window, &axis, &near);
-    return some && near.lower < most ? near.lower : most;
+    return some && !(near.lower >= most) ? near.lower : most;
 }
 
 static imp_code from_surface(spine_query *q, const imp_region *r, const imp_model x[3], double most,

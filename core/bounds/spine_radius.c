@@ -71,6 +71,8 @@ static double radius_of_square(const spine *of, const imp_model x[3])
     double size = fabs(square.a);
     for (int j = 0; j < 2; ++j) size += fabs(b[j]);
     size += fabs(q[IMP_UU]) + fabs(q[IMP_UV]) + fabs(q[IMP_VV]);
+    const double in_time = fabs(b[2]) + fabs(q[IMP_UT]) + fabs(q[IMP_VT]) + fabs(q[IMP_TT]);
+    if (in_time != 0) return INFINITY; /* the type contradicts itself */
     if (!(size < 0x1p400)) return INFINITY;
     const quadratics p = {imp_quad_all(-b[0]), imp_quad_all(-b[1]), imp_quad_all(-q[IMP_UU]),
                           imp_quad_all(-q[IMP_UV]), imp_quad_all(-q[IMP_VV])};

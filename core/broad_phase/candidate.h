@@ -30,6 +30,8 @@ typedef struct candidate_pair {
     distance_slips slips;
     bool rests; /* In slices of time: it moves, but only so that distances differ by at most half of
                    the list's slip from those of one moment. */
+    bool screws; /* In slices of time: one surface is a piece of a thread, along which the pair may
+                    be as good as at rest, as far as that reaches (screws.h). */
 } candidate_pair;
 
 static inline bool candidate_pairs_same_bodies(const candidate_pair *p, const candidate_pair *q)

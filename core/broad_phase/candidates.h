@@ -49,9 +49,9 @@ typedef struct candidate_limit {
 typedef struct candidate_search {
     double gamma_clear;
     bool is_nearest; /* pairs may be left out that are farther than another pair at all times */
-    /* Slices of the query's times are searched, each by itself: pairs that turn within themselves
-     * get trees of one moment for each slice (candidates_rest), and sections of threads, which have
-     * only points that are near at one moment of all times, are not used. */
+    /* Slices of the query's times are searched, each by itself: pairs that turn within themselves,
+     * or are screwed along a thread, get trees of one moment, and sections of threads, for each
+     * slice (candidates_rest). */
     bool in_slices;
     double slip_most; /* of the list, at most; length */
     /* Slips of surfaces along each other that are larger than this are of no use; length. */

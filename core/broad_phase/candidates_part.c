@@ -65,8 +65,10 @@ imp_code candidates_part(candidate_list *list, const candidate_list *whole, size
     list->pairs = arena_store_room(NULL, count * sizeof *list->pairs);
     bool ok = list->candidates != NULL && list->pairs != NULL;
     for (size_t k = 0; ok && k < count; ++k) {
-        list->pairs[k] = (candidate_pair){
-            .side = {NULL, NULL}, .slips = pairs[k].slips, .rests = pairs[k].rests};
+        list->pairs[k] = (candidate_pair){.side = {NULL, NULL},
+                                          .slips = pairs[k].slips,
+                                          .rests = pairs[k].rests,
+                                          .screws = pairs[k].screws};
         for (int side = 0; side < 2; ++side) {
             const candidate *from = pairs[k].side[side];
             const size_t before = side == 0 ? 0 : span[0].count;

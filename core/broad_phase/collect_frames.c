@@ -135,6 +135,11 @@ static imp_code find_screw_slip(collection *all, candidate *const side[2],
     return code;
 }
 
+static bool may_screw(const collection *all, const surface *const s[2])
+{
+    return all->may_halve && (surface_is_screw_piece(s[0]) || surface_is_screw_piece(s[1]));
+}
+
 /* Bounds in *slip how much the distance of the pair of these frames, which slips by `before`,
  * changes with time. */
 static imp_code find_slip(collection *all, candidate *const side[2], const time_window *times,
@@ -155,9 +160,8 @@ static imp_code find_slip(collection *all, candidate *const side[2], const time_
     const imp_status status =
         surface_pair_slip(s, of_pieces, bare, &all_times, times->lo, slip, &asked);
     const screw_rest_times at = {&all_times, times->lo, 0.5 * all->slip_most};
-    if (status == IMP_STATUS_OK && all->may_halve && !all->in_slices &&
-        !(*slip <= all->slip_most) &&
-        (surface_is_screw_piece(s[0]) || surface_is_screw_piece(s[1])))
+    if (status == IMP_STATUS_OK && !all->in_slices && !(*slip <= all->slip_most) &&
+        may_screw(all, s))
         return find_screw_slip(all, side, &at, bare, before, slip, error);
     if (status == IMP_STATUS_OK) return IMP_SUCCESS;
     const surface_message what = surface_status_message(s[asked], status);
@@ -183,7 +187,8 @@ static bool may_move(const surface *s, const imp_region *times)
     return depends;
 }
 
-/* Notes that a pair has trees of one moment in each slice, which candidates_rest makes. Lemma. If
+/* Notes that a pair has trees of one moment in each slice, or may have them, since it is screwed
+ * along a thread: candidates_rest makes them. Lemma. If
  * its distance at any time differs by at most s from that of one moment, it differs by at most 2 s
  * from that of any other. */
 static void rest_in_slices(collection *all, candidate_pair *p, candidate *const side[2],
@@ -191,9 +196,11 @@ static void rest_in_slices(collection *all, candidate_pair *p, candidate *const 
 {
     const double slip = sum_upper(2 * own, *found);
     const imp_region over = region_make((double[3]){0, 0, times->lo}, (double[3]){0, 0, times->hi});
+    const surface *const s[2] = {tree_surface(side[0]->tree), tree_surface(side[1]->tree)};
     bool moves = false;
+    p->screws = !(slip <= all->slip_most) && may_screw(all, s);
     if (!(slip <= all->slip_most)) return;
-    for (int k = 0; k < 2; ++k) moves = moves || may_move(tree_surface(side[k]->tree), &over);
+    for (int k = 0; k < 2; ++k) moves = moves || may_move(s[k], &over);
     if (!moves) return;
     p->rests = true;
     *found = slip;

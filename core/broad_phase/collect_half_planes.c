@@ -79,7 +79,7 @@ imp_code frames_halve_pair(collection *all, frame_list *frames, size_t k, double
     const imp_region over = region_make((double[3]){0, 0, times.lo}, (double[3]){0, 0, times.hi});
     int asked;
     imp_status status = surface_half_plane(s, &boxes, &over, of, &more, &asked);
-    /* Sections hold points that are near at one time: a slice's least distance may be greater. */
+    /* Sections hold points that are near at one time: each slice has its own (candidates_rest). */
     if (status == IMP_STATUS_OK && !(more < INFINITY) && !all->in_slices &&
         surface_is_screw_piece(s[0]) && surface_is_screw_piece(s[1])) {
         double near = sum_upper(all->gamma_clear, slip); /* at the moment, if the pair rests */

@@ -77,8 +77,8 @@ static imp_code begin_task(clearance_search *c, imp_error *error)
     const time_window times = {c->answer.t_start, c->answer.t_end};
     for (size_t k = 0; k < group->count && c->asked.slices > 1; ++k)
         pair_look_anew(&c->list->pairs[group->first + k]);
-    if (candidates_rest(c->list, group->first, group->count, &times, &c->moments, c->stats,
-                        error) != IMP_SUCCESS)
+    if (candidates_rest(c->list, group->first, group->count, &times, clearance_slip_most(c),
+                        &c->moments, c->stats, error) != IMP_SUCCESS)
         return error->code;
     const imp_code begun = clearance_begin_distance(c, group, error);
     if (begun != IMP_SUCCESS) candidates_wake(c->list, &c->moments, c->stats);

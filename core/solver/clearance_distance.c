@@ -18,7 +18,7 @@ imp_code clearance_begin_distance(clearance_search *c, const clearance_group *gr
         .required = required,
         .max_pairs = c->options.max_pairs,
         .relaxed = clearance_searched(c),
-        .slip = c->list->slip,
+        .slip = clearance_slip(c),
         .candidates = c->list->pairs,
         .stats = c->stats,
         .heap = {.store = scene_store(c->scene)},

@@ -65,6 +65,9 @@ imp_clearance clearance_blank_answer(const clearance_search *c, size_t index);
 /* Returns the bodies of the current task. */
 const clearance_group *clearance_group_of(const clearance_search *c);
 
+/* Returns how much distances of the current task's pairs may slip. */
+double clearance_slip(const clearance_search *c);
+
 /* Keeps the current task's answer and frees its searches. NONE as a reason becomes DECIDED where
  * the query's limits ended the search before its tolerance. */
 void clearance_finish_task(clearance_search *c, imp_reason reason);

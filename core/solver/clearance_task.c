@@ -21,9 +21,15 @@ double clearance_kept(const clearance_search *c)
                             : clearance_relaxed(c);
 }
 
+double clearance_slip(const clearance_search *c)
+{
+    return c->moments.slip > 0 ? sum_upper(c->list->slip, c->moments.slip) : c->list->slip;
+}
+
 double clearance_searched(const clearance_search *c)
 {
-    return c->list->slip > 0 ? sum_upper(clearance_kept(c), 2 * c->list->slip) : clearance_kept(c);
+    const double slip = clearance_slip(c);
+    return slip > 0 ? sum_upper(clearance_kept(c), 2 * slip) : clearance_kept(c);
 }
 
 const clearance_group *clearance_group_of(const clearance_search *c)
@@ -66,7 +72,7 @@ imp_code clearance_take_witness(const clearance_search *c, uint32_t k, const wit
 imp_code clearance_check_witness(const clearance_search *c, const imp_clearance *answer,
                                  double lower, double t, imp_error *error)
 {
-    const double upper = sum_upper(answer->upper, 2 * c->list->slip);
+    const double upper = sum_upper(answer->upper, 2 * clearance_slip(c));
     if (!answer->has_witness || !(upper < lower && answer->t < t)) return IMP_SUCCESS;
     return contradiction_fault(scene_surface(c->scene, answer->a.body, answer->a.surface),
                                scene_surface(c->scene, answer->b.body, answer->b.surface), upper,

@@ -446,11 +446,79 @@ START_TEST(nuts_are_clear_of_their_bolts)
 }
 END_TEST
 
+/* --- Slices of time --------------------------------------------------------------------------- */
+
+enum { SLICES = 4, SLICED = 4, SLICE_PAIRS = 300 };
+
+static imp_clearance slice_of(imp_scene *scene, double t0, double t1, uint64_t slices, size_t k)
+{
+    imp_error error;
+    imp_options options = imp_options_default(scene);
+    imp_clearance_options asked = imp_clearance_options_default();
+    imp_clearance r = {.struct_size = sizeof r};
+    options.gamma = 1e-5;
+    options.t_start = t0;
+    options.t_end = t1;
+    options.max_pairs = SLICE_PAIRS * slices;
+    asked.slices = slices;
+    asked.tolerance = 0.1;
+    imp_query *query = imp_clearance_new(scene, &options, &asked, &error);
+    ck_assert_msg(query != NULL, "%s", error.text);
+    ck_assert_msg(imp_query_step(query, 0, &error) == IMP_SUCCESS, "%s", error.text);
+    ck_assert_int_eq(imp_clearance_get(query, k, &r, &error), IMP_SUCCESS);
+    imp_query_free(query);
+    return r;
+}
+
+/* A nut that is screwed along a bolt, or that turns and slides in another way, or is inclined; it
+ * may leave the bolt, or come to it. */
+static imp_scene *draw_nut(imp_registry *registry, uint64_t *random)
+{
+    char bolt[200], along[300];
+    imp_error error;
+    const double c = random_power(random, -5, -3), rate = random_between(random, -12, 12);
+    const bool slips = random_bits(random) % 4 == 0, tilts = random_bits(random) % 8 == 0;
+    snprintf(bolt, sizeof bolt, "thread radius=%.17g height=%.17g", 1 - c,
+             random_between(random, 0.6, 3));
+    snprintf(along, sizeof along,
+             "thread height=%.17g center=0,0,%.17g ! screw pitch=%.17g rate=%.17g ! rotate "
+             "axis=1,0,0 angle=%.17g",
+             random_between(random, 0.3, 1), 0.5 * (double)(random_bits(random) % 3),
+             slips ? 0.52 : 0.5, rate, tilts ? 0.01 : 0);
+    imp_scene *scene = imp_scene_from_pair(registry, bolt, along, &error);
+    ck_assert_msg(scene != NULL, "%s", error.text);
+    return scene;
+}
+
+START_TEST(slices_of_what_is_screwed_are_as_far_as_alone)
+{
+    uint64_t random = suite_seed();
+    imp_registry *registry = query_registry();
+    int narrow = 0;
+    for (int n = 0; n < suite_times_from(SLICED, SLICED / 2); ++n) {
+        imp_scene *scene = draw_nut(registry, &random);
+        for (size_t k = 0; k < SLICES; ++k) {
+            const imp_clearance r = slice_of(scene, 0, 1, SLICES, k),
+                                s = slice_of(scene, 0.25 * (double)k, 0.25 * (double)(k + 1), 1, 0);
+            ck_assert_msg(r.lower <= s.upper && s.lower <= r.upper,
+                          "scene %d, slice %zu: [%.17g, %.17g], alone [%.17g, %.17g]", n, k,
+                          r.lower, r.upper, s.lower, s.upper);
+            ck_assert(!r.has_witness || (r.t_start <= r.t && r.t <= r.t_end));
+            narrow += r.lower > 0.5 * r.upper;
+        }
+        imp_scene_free(scene);
+    }
+    imp_registry_free(registry);
+    ck_assert_int_gt(narrow, 0);
+}
+END_TEST
+
 int main(void)
 {
     const suite_loop loops[] = {{points_of_one_section_are_as_near, 1},
                                 {sections_need_one_lead_and_hand_and_claims, 1},
                                 {what_is_screwed_along_a_piece_rests, 1},
-                                {nuts_are_clear_of_their_bolts, NUTS}};
+                                {nuts_are_clear_of_their_bolts, NUTS},
+                                {slices_of_what_is_screwed_are_as_far_as_alone, 1}};
     return suite_main_loops("screw pieces", loops, sizeof loops / sizeof *loops, NULL, NULL);
 }
