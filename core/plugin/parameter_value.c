@@ -146,20 +146,22 @@ static imp_code check_extent(reader *r, size_t found, uint32_t depth, const plac
     return IMP_SUCCESS;
 }
 
-/* Reads the numbers that the array begins with and the row allows, and returns how many. */
-static size_t read_numbers(reader *r, const json_t *array)
+/* Reads the numbers that the array begins with and the row allows; *read is how many. */
+static imp_code read_numbers(reader *r, const json_t *array, size_t *read)
 {
     const imp_parameter *row = r->row;
     const size_t count = json_array_size(array);
-    if (row->kind != IMP_KIND_NUMBER && row->kind != IMP_KIND_INTEGER) return 0;
-    for (size_t i = 0; i < count; ++i) {
-        const json_t *json = json_array_get(array, i);
-        if (!json_is_number(json)) return i;
+    *read = 0;
+    if (row->kind != IMP_KIND_NUMBER && row->kind != IMP_KIND_INTEGER) return IMP_SUCCESS;
+    for (; *read < count; ++*read) {
+        const json_t *json = json_array_get(array, *read);
+        if (!json_is_number(json)) break;
         const double x = json_number_value(json);
-        if (!parameter_is_allowed(row, x) || !reserve_number(r)) return i;
+        if (!parameter_is_allowed(row, x)) break;
+        if (!reserve_number(r)) return error_set_memory(r->error);
         r->number[r->value->count++] = x;
     }
-    return count;
+    return IMP_SUCCESS;
 }
 
 static imp_code read_level(reader *r, const json_t *json, uint32_t depth, const place *at)
@@ -168,8 +170,8 @@ static imp_code read_level(reader *r, const json_t *json, uint32_t depth, const 
     if (depth == r->row->rank) return read_leaf(r, json, at);
     if (!json_is_array(json)) return refuse(r, json, depth, at);
     imp_code code = check_extent(r, json_array_size(json), depth, at);
-    const bool has_leaves = depth + 1 == r->row->rank && code == IMP_SUCCESS;
-    size_t i = has_leaves ? read_numbers(r, json) : 0;
+    size_t i = 0;
+    if (code == IMP_SUCCESS && depth + 1 == r->row->rank) code = read_numbers(r, json, &i);
     for (; i < json_array_size(json) && code == IMP_SUCCESS; ++i) {
         place element = place_index(at, i);
         code = read_level(r, json_array_get(json, i), depth + 1, &element);
