@@ -79,9 +79,14 @@ FP_APART static imp_code set_values(imp_scene *scene, scene_stage at, const imp_
                 at.map != SIZE_MAX ? &map : whole, &made, error);
     if (code != IMP_SUCCESS) return code;
     shared_instance *equal = made->map != NULL ? scene_equal_map(scene, made) : NULL;
+    if (equal != NULL) {
+        instance_hold(equal);
+        scene_give_spare(scene, made);
+        made = equal;
+    }
     shared_instance *old = instance_hold(scene_stage_at(scene, at));
-    code = scene_replace(scene, at, equal != NULL ? equal : made);
-    scene_give_spare(scene, made); /* kept if the scene has an equal one, or is as it was */
+    code = scene_replace(scene, at, made);
+    scene_give_spare(scene, made); /* kept if the scene is as it was */
     scene_give_spare(scene, old);
     return code == IMP_SUCCESS ? code : error_set_memory(error);
 }

@@ -26,6 +26,18 @@ size_t scene_own_maps(const imp_scene *scene, size_t body, size_t k)
     return scene->layout != NULL ? all - maps_of_bodies(scene, body) : all;
 }
 
+/* Returns a surface's own map that is equal to this one; NULL: none. */
+static shared_instance *own_equal_map(const surface *s, size_t of_bodies,
+                                      const shared_instance *map)
+{
+    const size_t all = surface_map_count(s);
+    for (size_t j = 1; j + of_bodies <= all; ++j) {
+        shared_instance *one = surface_stage(s, j);
+        if (instance_is_equal_map(one, map)) return one;
+    }
+    return NULL;
+}
+
 shared_instance *scene_stage_at(const imp_scene *scene, scene_stage at)
 {
     if (at.body >= scene->count || scene->layout == NULL) return NULL;
@@ -42,17 +54,16 @@ shared_instance *scene_stage_at(const imp_scene *scene, scene_stage at)
 
 shared_instance *scene_equal_map(const imp_scene *scene, const shared_instance *map)
 {
+    if (map->description == NULL) return NULL;
     for (size_t b = 0; b < scene->count; ++b) {
         const scene_body *body = &scene->bodies[b];
         const instance_list *maps = &scene->layout[b].maps;
+        const size_t of_bodies = maps_of_bodies(scene, b);
         for (size_t k = 0; k < maps->count; ++k)
             if (instance_is_equal_map(maps->at[k], map)) return maps->at[k];
         for (size_t k = 0; k < body->count; ++k) {
-            const size_t own = scene_own_maps(scene, b, k);
-            for (size_t j = 1; j <= own; ++j) {
-                shared_instance *one = surface_stage(body->members[k].surface, j);
-                if (instance_is_equal_map(one, map)) return one;
-            }
+            shared_instance *one = own_equal_map(body->members[k].surface, of_bodies, map);
+            if (one != NULL) return one;
         }
     }
     return NULL;
@@ -201,6 +212,13 @@ static bool has_instance(const imp_scene *scene, const shared_instance *p)
     return false;
 }
 
+/* Whether an instance that the caller holds is not in the scene. Most are held by nobody else, so
+ * that the scene is not searched. */
+static bool is_elsewhere(const imp_scene *scene, const shared_instance *p)
+{
+    return instance_is_own(p) || !has_instance(scene, p);
+}
+
 /* Changes the sum of bytes by that of the surfaces exchanged. */
 static void settle_bytes(imp_scene *scene, const change *c)
 {
@@ -231,8 +249,8 @@ imp_code scene_replace(imp_scene *scene, scene_stage at, shared_instance *by)
     assert(from != NULL && scene_users(scene) == 0);
     if (from == by) return IMP_SUCCESS;
     change c = {.count = 0};
+    const bool is_new = is_elsewhere(scene, by);
     bool done = recompose(scene, at, by, &c);
-    const bool is_new = !has_instance(scene, by);
     if (done) exchange(&c);
     if (done && (from->note_count > 0 || by->note_count > 0) && !renew_remarks(scene)) {
         exchange(&c);
@@ -240,12 +258,14 @@ imp_code scene_replace(imp_scene *scene, scene_stage at, shared_instance *by)
     }
     if (done) {
         settle(scene, from, by, &c);
-        if (at.surface == SIZE_MAX) scene->layout[at.body].maps.at[at.map] = instance_hold(by);
+        if (at.surface == SIZE_MAX) {
+            scene->layout[at.body].maps.at[at.map] = instance_hold(by);
+            instance_release(from);
+        }
         if (is_new) scene->bytes += instance_bytes(by);
-        if (!has_instance(scene, from)) scene->bytes -= instance_bytes(from);
-        if (at.surface == SIZE_MAX) instance_release(from);
     }
     clear(scene, &c); /* which releases the other surfaces' hold of `from` */
+    if (done && is_elsewhere(scene, from)) scene->bytes -= instance_bytes(from);
     return done ? IMP_SUCCESS : IMP_ERROR_MEMORY;
 }
 

@@ -35,8 +35,8 @@ shared_instance *scene_take_spare(imp_scene *scene, const imp_surface_type *type
 /* Takes over what the caller holds: kept to be refilled, if nobody else holds it. */
 void scene_give_spare(imp_scene *scene, shared_instance *p);
 
-/* Puts an instance of the same type, which the scene then holds, in the place of that one. Nothing
- * may use the scene. IMP_ERROR_MEMORY: the scene is as it was. */
+/* Puts an instance of the same type, which the scene then holds, in the place of that one; the
+ * caller holds both. Nothing may use the scene. IMP_ERROR_MEMORY: the scene is as it was. */
 imp_code scene_replace(imp_scene *scene, scene_stage at, shared_instance *by);
 
 #endif

@@ -223,6 +223,11 @@ shared_instance *instance_hold(shared_instance *p)
     return p;
 }
 
+bool instance_is_own(const shared_instance *p)
+{
+    return atomic_load_explicit(&p->holders, memory_order_acquire) == 1;
+}
+
 void instance_shelf_add(instance_shelf *shelf, instance_kept one)
 {
     const instance_kept last = shelf->kept[INSTANCE_KEPT_MAX - 1];

@@ -156,6 +156,9 @@ void instance_shelf_add(instance_shelf *shelf, instance_kept one);
 void instance_clear_shelf(shared_instance *p);
 
 shared_instance *instance_hold(shared_instance *p);
+
+/* Whether the caller, who holds it, is its only holder. */
+bool instance_is_own(const shared_instance *p);
 void instance_release(shared_instance *p); /* p may be NULL */
 
 /* A list of instances in order. It holds each instance once per occurrence. */
