@@ -135,6 +135,7 @@ mpfi_suites = \
     tests/unit/test_certificates \
     tests/unit/test_kernel \
     tests/unit/test_certificate_round \
+    tests/unit/test_certificate_turns \
     tests/unit/test_certificate_changes \
     tests/unit/test_proof_memory \
     tests/unit/test_plugins \
@@ -242,6 +243,8 @@ tests_unit_test_certificates_CPPFLAGS = $(AM_CPPFLAGS) -DPROOF_DOUBLE
 tests_unit_test_certificates_LDADD = tools/libverify.la $(LDADD)
 tests_unit_test_certificate_round_CPPFLAGS = $(AM_CPPFLAGS) -DPROOF_DOUBLE
 tests_unit_test_certificate_round_LDADD = tools/libverify.la $(LDADD)
+tests_unit_test_certificate_turns_CPPFLAGS = $(AM_CPPFLAGS) -DPROOF_DOUBLE
+tests_unit_test_certificate_turns_LDADD = tools/libverify.la $(LDADD)
 tests_unit_test_certificate_changes_CPPFLAGS = $(AM_CPPFLAGS) -DPROOF_DOUBLE
 tests_unit_test_certificate_changes_LDADD = tools/libverify.la $(LDADD)
 tests_unit_test_expression_bounds_SOURCES = tests/unit/test_expression_bounds.c \

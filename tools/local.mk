@@ -333,6 +333,7 @@ tools_libverify_la_SOURCES = \
     tools/verify/apart.c tools/verify/apart.h \
     tools/verify/apart_axis.c tools/verify/apart_internal.h \
     tools/verify/apart_cell.c tools/verify/apart_guess.c \
+    tools/verify/apart_round.c tools/verify/apart_centre.c \
     tools/verify/elaborate.c tools/verify/elaborate.h \
     tools/verify/enclose.c tools/verify/enclose.h \
     tools/verify/input.c tools/verify/input.h \
@@ -341,7 +342,10 @@ tools_libverify_la_SOURCES = \
     tools/verify/motion_internal.h tools/verify/motion_affine.c \
     tools/verify/motion.c tools/verify/motion.h \
     tools/verify/motion_form.c tools/verify/motion_rigid.c \
+    tools/verify/form.h tools/verify/form_turned.c \
     tools/verify/mpfi_functions.c \
+    tools/verify/orbit.c tools/verify/orbit.h \
+    tools/verify/turn.c tools/verify/turn.h \
     tools/verify/net.c tools/verify/net.h \
     tools/verify/net_formula.c tools/verify/net_internal.h \
     tools/verify/net_jets.c \
@@ -349,6 +353,7 @@ tools_libverify_la_SOURCES = \
     tools/verify/round_guess.c \
     tools/verify/round.c tools/verify/round.h \
     tools/verify/shadow.c tools/verify/shadow.h \
+    tools/verify/shadow_internal.h tools/verify/shadow_round.c \
     tools/verify/cloud.c tools/verify/cloud.h \
     tools/verify/sides.c tools/verify/sides.h \
     tools/verify/statement.c tools/verify/statement.h \

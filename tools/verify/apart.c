@@ -138,6 +138,13 @@ static apart_outcome apart_by_face(prover *p, const cell *c, const double n[3])
     return is_axis(n) ? apart_by_axis(p, c, n, &unused) : DIVIDE;
 }
 
+/* Tests an axis of a side that turns, for all angles. */
+static apart_outcome apart_by_turn(prover *p, const cell *c, const double n[3])
+{
+    apart_trial unused;
+    return is_axis(n) ? apart_by_orbit(p, c, n, &unused) : DIVIDE;
+}
+
 static apart_outcome test(prover *p, const cell *c, cut *by)
 {
     const bool is_single = c->count[0] == 1 && c->count[1] == 1;
@@ -159,8 +166,10 @@ static apart_outcome test(prover *p, const cell *c, cut *by)
     for (int m = 0; m < AXES && best < INFINITY; ++m) {
         if (m == 0 && best == -INFINITY)
             some = false; /* of the smallest cells, this axis is right */
-        const bool is_face = m > 0 && c->count[m - 1] > 1;
-        o = is_face ? apart_by_face(p, c, n[m]) : try_axis(p, c, n[m], &best, by, &some);
+        const bool is_face = m > 0 && m < AXES_AT_REST && c->count[m - 1] > 1;
+        o = is_face             ? apart_by_face(p, c, n[m])
+            : m >= AXES_AT_REST ? apart_by_turn(p, c, n[m])
+                                : try_axis(p, c, n[m], &best, by, &some);
         if (o != DIVIDE) return o;
     }
     if (!some) some = divide_cell(p, c, &tried, by);
@@ -228,6 +237,8 @@ void prover_forget(prover *p)
     p->centre_count = 0;
     p->wasted = 0;
     p->spent = 0;
+    p->round_spent = 0;
+    p->round_helps = false;
     p->has_missed = false;
     p->kept[0].is_kept = p->kept[1].is_kept = false;
 }

@@ -43,14 +43,17 @@ typedef struct prover {
     kept_side kept[2];  /* what they are of */
     centre centres[2];  /* of either side, as guessed in this leaf or before */
     int centre_count;
-    size_t wasted;    /* boxes of centres, since one of them parted a cell */
-    size_t spent;     /* boxes of one centre, beyond what it gained (apart_axis.c) */
-    bool has_guessed; /* in this leaf */
-    bool has_missed;  /* the last guess, of these pieces, found that one is not round */
+    size_t wasted;      /* boxes of centres, since one of them parted a cell */
+    size_t spent;       /* boxes of one centre, beyond what it gained (apart_axis.c) */
+    size_t round_spent; /* boxes of aims of all angles, likewise (apart_round.c); and */
+    bool round_helps;   /* whether they parted the last cell for which they were tried */
+    bool has_guessed;   /* in this leaf */
+    bool has_missed;    /* the last guess, of these pieces, found that one is not round */
     size_t missed[2];
     const cell *leaf; /* that is being proved */
     cell tried;       /* of the last test, and */
     aim aim;          /* what it tried there, for A */
+    bool is_round;    /* that was tried with all angles of a side at once */
     cell worst;       /* where it ended, */
     values worst_when;
     double found;    /* what was found there: two points so near, or INFINITY: nothing but */

@@ -150,12 +150,14 @@ static bool divide_area(prover *p, const cell *c, int side, size_t index, const 
  * for distances (round.c): where f(B) - f(A) >= change apart at each time of the cell, no two
  * points of it are nearer. f(A) is at most what A reaches, and -f(B) what B reaches in its own
  * direction. The sides are divided one by one, since neither bound depends on the other side. */
-static apart_outcome try_aims(prover *p, const cell *c, const aim a[2], double change_upper,
-                              apart_trial *tried)
+apart_outcome apart_try_aims(prover *p, const cell *c, const aim a[2], double change_upper,
+                             apart_trial *tried)
 {
     const double limit = ld_interval_mul(ld_interval_of(change_upper), ld_interval_of(p->apart)).hi;
+    const bool is_round = aim_is_of_jets(&a[0]) || aim_is_of_jets(&a[1]);
     p->tried = *c;
     p->aim = a[0];
+    p->is_round = a[0].is_round || a[1].is_round;
     tried->left = -INFINITY;
     tried->cut.along = -1;
     for (int side = 0; side < 2; ++side) {
@@ -174,12 +176,13 @@ static apart_outcome try_aims(prover *p, const cell *c, const aim a[2], double c
         if (m.low >= 0) return APART;
         if (is_first) {
             tried->left = m.most > 0 ? m.low / m.most : -INFINITY;
+            tried->beyond = m.most > 0 ? 0 : -m.most;
             take_trial(p, a, r, limit, tried);
         }
         const double slips = rough_slip(&a[0], &r[0]) + rough_slip(&a[1], &r[1]);
         if (m.most > 0 && slips > 0.5 * m.most) return tried->time = INFINITY, DIVIDE;
         const int step = boxes > begun ? (int)(boxes - begun) : 0;
-        if (!(m.most > 0) || is_hopeless(step, a[0].about != NULL, m.low, m.most)) return DIVIDE;
+        if (!(m.most > 0) || is_hopeless(step, is_round, m.low, m.most)) return DIVIDE;
         double lacks[2];
         for (int side = 0; side < 2; ++side)
             lacks[side] =
@@ -191,95 +194,28 @@ static apart_outcome try_aims(prover *p, const cell *c, const aim a[2], double c
     }
 }
 
-apart_outcome apart_by_axis(prover *p, const cell *c, const double n[3], apart_trial *tried)
+/* Makes the aims along an axis; returns an upper bound of its length. */
+static double aims_along(const double n[3], aim a[2])
 {
     ld_interval square = ld_interval_of(0);
-    aim a[2] = {{.about = NULL}, {.about = NULL}};
+    for (int side = 0; side < 2; ++side) a[side] = (aim){.about = NULL};
     for (int i = 0; i < 3; ++i) {
         square = ld_interval_add(square, ld_interval_sqr(ld_interval_of(n[i])));
         a[0].n[i] = n[i], a[1].n[i] = -n[i];
     }
-    return try_aims(p, c, a, ld_interval_sqrt(square).hi, tried);
+    return ld_interval_sqrt(square).hi;
 }
 
-/* Tests of a leaf before its surfaces' centres are guessed; and boxes that may be wasted by centres
- * of both surfaces. */
-enum { TESTS_BEFORE_CENTRES = 3, WASTE_MOST = 1 << 15 };
-
-/* Boxes that the centre of one surface may take beyond GAINED for each cell that it parts. A ball
- * of radius 1 in a bore of 1.01 takes some 1,000 for its first cell, and few for those after it. */
-enum { CREDIT = 1 << 12, GAINED = 1 << 8 };
-
-static bool are_worth_it(const prover *p)
+apart_outcome apart_by_axis(prover *p, const cell *c, const double n[3], apart_trial *tried)
 {
-    return p->centre_count == 1 ? p->spent <= CREDIT : p->wasted <= WASTE_MOST;
+    aim a[2];
+    const double length_upper = aims_along(n, a);
+    return apart_by_angles(p, c, a, length_upper, tried);
 }
 
-/* Keeps the centres to be tried, and counts them: those of both surfaces if they are shared, such
- * as of a shaft and its bore; else that of a ball at rest, from which it is everywhere as far as it
- * can be; or the line of one at rest, if the other has none, such as a disc in a bore. Lines that
- * move part little: the leaves of an arm beside a fixture took twice the tests with them; and what
- * is beside a centre, not around it, is parted by axes: a box on rollers took 400 times as long. */
-static int choose_centres(prover *p, const cell *c, const place of[2], const bool found[2])
+apart_outcome apart_by_orbit(prover *p, const cell *c, const double n[3], apart_trial *tried)
 {
-    centre *all = p->centres;
-    if (found[0] && found[1] && centre_is_shared(&all[0], &all[1])) return 2;
-    for (int side = 0; side < 2; ++side) {
-        if (!found[side] || (all[side].is_line && found[!side])) continue;
-        place other;
-        const cell *all_of_it = p->leaf->count[!side] == 1 ? p->leaf : c;
-        const box3 where = cell_area(p, all_of_it, !side, 0, &other);
-        if (!centre_rests(p->known, &of[side], c->t, &all[side]) ||
-            !centre_is_amid(p->known, &all[side], &other, &where))
-            continue;
-        all[0] = all[side];
-        return 1;
-    }
-    return 0;
-}
-
-static void guess_centres(prover *p, const cell *c)
-{
-    bool found[2];
-    place of[2];
-    for (int side = 0; side < 2; ++side) of[side] = cell_piece(p, side, c->first[side]);
-    p->has_guessed = true;
-    if (p->has_missed && p->missed[0] == of[0].piece && p->missed[1] == of[1].piece) return;
-    const double t = middle(c->t[0], c->t[1]);
-    for (int side = 0; side < 2; ++side)
-        found[side] = centre_guess(p->known, &of[side], t, &p->centres[side]);
-    p->centre_count = choose_centres(p, c, of, found);
-    p->has_missed = !found[0] && !found[1];
-    for (int side = 0; side < 2; ++side) p->missed[side] = of[side].piece;
-}
-
-/* Notes how many boxes a centre took. */
-static void note_cost(prover *p, apart_outcome o, unsigned long cast)
-{
-    p->wasted = o == APART ? 0 : p->wasted + p->areas[0].count + p->areas[1].count;
-    if (p->centre_count != 1) return;
-    const size_t gained = o == APART ? GAINED : 0;
-    p->spent = p->spent + cast > gained ? p->spent + cast - gained : 0;
-}
-
-apart_outcome apart_by_centres(prover *p, const cell *c, apart_trial *tried)
-{
-    place of[2];
-    box3 where[2];
-    apart_trial own;
-    if (!p->has_guessed && p->tests > TESTS_BEFORE_CENTRES) guess_centres(p, c);
-    if (!are_worth_it(p)) return DIVIDE;
-    for (int side = 0; side < 2; ++side) where[side] = cell_area(p, c, side, 0, &of[side]);
-    for (int k = 0; k < p->centre_count; ++k) {
-        aim a[2];
-        double change_upper;
-        if (!centre_aims(p->known, &p->centres[k], of, where, p->apart, a, &change_upper)) continue;
-        const unsigned long before = p->areas[0].cast + p->areas[1].cast;
-        const apart_outcome o = try_aims(p, c, a, change_upper, &own);
-        note_cost(p, o, p->areas[0].cast + p->areas[1].cast - before);
-        /* One centre that does not part even the points that are known says not what to divide. */
-        if (p->centre_count > 1 || own.left > -INFINITY) *tried = own;
-        if (o != DIVIDE) return o;
-    }
-    return DIVIDE;
+    aim a[2];
+    const double length_upper = aims_along(n, a);
+    return apart_by_all_angles(p, c, a, length_upper, tried);
 }

@@ -92,9 +92,76 @@ static void choose_face(const prover *p, seen side[2], int own, double to[3])
     }
 }
 
+/* --- Sides that turn -------------------------------------------------------------------------- */
+
+/* The middle of a side's middles: where it is, if it does not turn, or else the middle of its
+ * orbit, and the radius of that. */
+typedef struct amid {
+    double at[3], radius, axis[3];
+    bool turns;
+} amid;
+
+/* False: it is not known. */
+static bool take_amid(prover *p, const cell *c, int side, const seen *s, amid *to)
+{
+    const orbit *o = apart_orbit(p, c, side);
+    place bare;
+    *to = (amid){.turns = o != NULL && orbit_axis(o, to->axis)};
+    for (int i = 0; i < 3; ++i) to->at[i] = 0.5 * s->lo[i] + 0.5 * s->hi[i];
+    if (!to->turns) return s->count > 0;
+    double x[3] = {0, 0, 0}, turned[3], square = 0;
+    const size_t count = c->count[side] < SEEN ? c->count[side] : 1;
+    for (size_t k = 0; k < count; ++k) {
+        const box3 where = cell_area(p, c, side, k, &bare);
+        bare.maps = 0;
+        const kept *of = look_jets(p->known, &bare, &where);
+        if (of->result != ENCLOSED) return false;
+        for (int i = 0; i < 3; ++i) x[i] += ld_interval_mid(of->centre[i].v) / (double)count;
+    }
+    orbit_points(o, x, to->at, turned);
+    for (int i = 0; i < 3; ++i) square += turned[i] * turned[i];
+    to->radius = sqrt(square);
+    return true;
+}
+
+/* Moves the middle of an orbit to the point of it that is nearest to another middle, about. Writes
+ * the direction in which that is seen from the middle, across the axis. */
+static void face(amid *side, const double other[3], double out[3])
+{
+    double along = 0;
+    for (int i = 0; i < 3; ++i) out[i] = other[i] - side->at[i];
+    for (int i = 0; i < 3; ++i) along += out[i] * side->axis[i];
+    for (int i = 0; i < 3; ++i) out[i] -= along * side->axis[i];
+    const double length = sqrt(dot(out, out));
+    for (int i = 0; i < 3 && length > 0; ++i) side->at[i] += side->radius * out[i] / length;
+}
+
+static void find_turning_axes(prover *p, const cell *c, const seen side[2], double n[4][3])
+{
+    amid of[2], was[2];
+    memset(n, 0, 4 * sizeof n[0]);
+    for (int s = 0; s < 2; ++s)
+        if (!take_amid(p, c, s, &side[s], &of[s])) return;
+    if (!of[0].turns && !of[1].turns) return;
+    memcpy(was, of, sizeof was);
+    for (int s = 0; s < 2; ++s) {
+        double out[3];
+        if (!of[s].turns) continue;
+        face(&of[s], was[!s].at, out);
+        for (int i = 0; i < 3 && (s == 0 || !of[0].turns); ++i) n[1][i] = s == 0 ? out[i] : -out[i];
+        memcpy(n[2 + s], of[s].axis, sizeof n[0]);
+    }
+    for (int i = 0; i < 3; ++i) n[0][i] = of[1].at[i] - of[0].at[i];
+    for (int k = 2; k < 4; ++k) {
+        const double sign = dot(n[k], n[0]) < 0 ? -1 : 1;
+        for (int i = 0; i < 3; ++i) n[k][i] *= sign;
+    }
+}
+
 void apart_find_axes(prover *p, const cell *c, double n[AXES][3])
 {
     seen side[2];
+    memset(n, 0, AXES * sizeof n[0]);
     for (int s = 0; s < 2; ++s) look_at_side(p, c, s, &side[s]);
     for (int i = 0; i < 3; ++i)
         n[0][i] =
@@ -109,5 +176,13 @@ void apart_find_axes(prover *p, const cell *c, double n[AXES][3])
             const double sign = dot(to, n[0]) < 0 ? -1 : 1;
             for (int i = 0; i < 3; ++i) to[i] *= sign;
         }
+    }
+    if (apart_is_round(p, c)) {
+        double first[3];
+        find_turning_axes(p, c, side, &n[AXES_AT_REST]);
+        memcpy(first, n[AXES_AT_REST], sizeof first);
+        if (!apart_is_round_first(p, c)) return;
+        memcpy(n[AXES_AT_REST], n[0], sizeof first);
+        memcpy(n[0], first, sizeof first);
     }
 }

@@ -70,7 +70,8 @@ static bool take_goal(coq *q, const prover *p, goal *g)
     double far[2];
     const double *upper[2];
     ld_interval square = ld_interval_of(0);
-    if (a->about != NULL || p->areas[0].count == 0 || p->areas[1].count == 0) return false;
+    if (a->about != NULL || p->is_round || p->areas[0].count == 0 || p->areas[1].count == 0)
+        return false;
     *g = (goal){.leaf = q->leaves, .when = p->when, .apart = p->apart};
     for (int side = 0; side < 2; ++side) {
         const area *drawn = &p->areas[side].at[draw(q, p->areas[side].count)];

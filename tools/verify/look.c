@@ -83,6 +83,55 @@ const form_changes *look_changes(memory *all, const place *of, double lo, double
     return &k->found;
 }
 
+const kept_circle *look_circle(memory *all, const place *of, const box3 *where)
+{
+    const part *shape;
+    split unused;
+    if (enclose_part(of, where, &shape, &unused) != ENCLOSED || shape->circle == NULL) return NULL;
+    const box3 own = place_box(of, 0, where);
+    if (enclose_next_part(enclose_piece(of, 0), shape, &own) != NULL) return NULL;
+    if (shape->is_moving && !place_follows_main(of, 0)) return NULL;
+    const double lo[2] = {where->lo[V], where->lo[T]}, hi[2] = {where->hi[V], where->hi[T]};
+    const double numbers[4] = {lo[0], lo[1], hi[0], hi[1]};
+    kept_circle *k = &all->circles[mixed((uintptr_t)shape, numbers, 4) & (KEPT_CIRCLES - 1)];
+    if (k->part == shape && memcmp(k->lo, lo, sizeof lo) == 0 && memcmp(k->hi, hi, sizeof hi) == 0)
+        return k;
+    k->part = shape;
+    memcpy(k->lo, lo, sizeof lo);
+    memcpy(k->hi, hi, sizeof hi);
+    for (int j = 0; j < VARIABLES; ++j) k->c[j] = middle(where->lo[j], where->hi[j]);
+    circle_take(shape->circle, where, k->c, of->room, k->wide, k->centre);
+    return k;
+}
+
+static kept_orbit *find_orbit(memory *all, const place *of, double lo, double hi)
+{
+    const double times[2] = {lo, hi};
+    kept_orbit *k = &all->orbits[mixed(place_key(of), times, 2) & (KEPT_ORBITS - 1)];
+    if (k->chain == of->chain && k->maps == of->maps && k->stamp == of->when->stamp &&
+        k->lo == lo && k->hi == hi)
+        return k;
+    k->chain = of->chain, k->maps = of->maps, k->stamp = of->when->stamp;
+    k->lo = lo, k->hi = hi;
+    orbit_take(of, lo, hi, &k->orbit);
+    k->has_rows = false;
+    return k;
+}
+
+const orbit *look_orbit(memory *all, const place *of, double lo, double hi)
+{
+    return &find_orbit(all, of, lo, hi)->orbit;
+}
+
+const orbit_rows *look_rows(memory *all, const place *of, double lo, double hi, const double n[3])
+{
+    kept_orbit *k = find_orbit(all, of, lo, hi);
+    if (!k->has_rows || memcmp(k->rows.v, n, sizeof k->rows.v) != 0)
+        orbit_take_rows(&k->orbit, n, &k->rows);
+    k->has_rows = true;
+    return &k->rows;
+}
+
 static void take_jets(const place *of, const box3 *where, kept_net *k)
 {
     jet wide[3], centre[3];

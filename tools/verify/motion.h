@@ -11,7 +11,7 @@
  * Most maps take x to M x + d, M and d depending on time alone, and most shapes do not move by
  * themselves: either is bounded once for all boxes of the other. */
 
-/* Notes of each part whether it is an affine map, or else a polynomial. */
+/* Notes of each part whether it is an affine map, and turns, or is a polynomial. */
 void motion_prepare(statement *s);
 
 /* Bounds the maps of a place over the times from lo to hi, if all of them are affine, *is_affine.

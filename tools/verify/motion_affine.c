@@ -5,6 +5,7 @@
 #include <stdlib.h>
 
 #include "tools/verify/motion_internal.h"
+#include "tools/verify/turn.h"
 
 /* Lemma. A second derivative by two of x, y and z that is exactly 0 for all x, y and z (the whole
  * line), for all of which the map is defined, makes the map affine in them. */
@@ -21,12 +22,13 @@ static bool is_affine(const part *p, jet room[])
 }
 
 /* Notes what a shape is. A part without an end in time is looked at while the claim lasts. */
-static void prepare_shape(const scene_clock *t, part *p)
+static void prepare_shape(const scene_clock *t, part *p, jet room[])
 {
     const double lo[3] = {p->lo[U], p->lo[V], p->lo[T] > t->lo ? p->lo[T] : t->lo};
     const double hi[3] = {p->hi[U], p->hi[V], p->hi[T] < t->hi ? p->hi[T] : t->hi};
     p->is_moving = formula_depends(p->f, T);
     if (lo[T] <= hi[T]) p->net = net_of_formula(p->f, lo, hi);
+    if (p->net == NULL && room != NULL) p->circle = circle_of_part(p, room);
 }
 
 void motion_prepare(statement *s)
@@ -36,8 +38,10 @@ void motion_prepare(statement *s)
         for (size_t i = 0; i < s->stages[k].count; ++i)
             for (size_t j = 0; j < s->stages[k].pieces[i].count; ++j) {
                 part *p = &s->stages[k].pieces[i].parts[j];
-                if (!s->stages[k].is_map) prepare_shape(&s->clocks[s->stages[k].clock], p);
+                if (!s->stages[k].is_map) prepare_shape(&s->clocks[s->stages[k].clock], p, room);
                 p->is_affine = s->stages[k].is_map && room != NULL && is_affine(p, room);
+                if (p->is_affine && formula_depends(p->f, T + 1))
+                    p->turn = turn_of_map(p, &s->clocks[s->stages[k].clock], room);
             }
     free(room);
 }

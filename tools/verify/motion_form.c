@@ -5,24 +5,22 @@
 #include <math.h>
 #include <stdlib.h>
 
-#include "tools/verify/motion_internal.h"
+#include "tools/verify/form.h"
 
-/* Returns the element i, k of N^T E N, N being M and d - c. */
-static jet form_of(const jet n[3][4], ld_interval e[3][3], int i, int k)
+jet form_of(const jet n[3][4], const jet l[3][4], ld_interval e[3][3], int i, int k)
 {
     jet sum = jet_constant(1, ld_interval_of(0));
     for (int a = 0; a < 3; ++a)
         for (int b = 0; b < 3; ++b) {
             if (ld_interval_is(e[a][b], 0)) continue;
-            const jet both = jet_mul(&n[a][i], &n[b][k]);
+            const jet both = jet_mul(&n[a][i], &l[b][k]);
             const jet term = jet_scale(&both, e[a][b]);
             sum = jet_add(&sum, &term);
         }
     return sum;
 }
 
-/* Returns the element k of w^T N. */
-static jet lift_of(const jet n[3][4], const double w[3], int k)
+jet lift_of(const jet n[3][4], const double w[3], int k)
 {
     jet sum = jet_constant(1, ld_interval_of(0));
     for (int a = 0; a < 3; ++a) {
@@ -31,9 +29,6 @@ static jet lift_of(const jet n[3][4], const double w[3], int k)
     }
     return sum;
 }
-
-/* Row 4 holds w^T N; the others N^T E N, which is symmetric like E. */
-typedef ld_interval form_elements[5][4];
 
 /* Computes the elements over some times. False: the maps may not be affine there. */
 static bool take_form(const place *p, double lo, double hi, const double c[3], ld_interval e[3][3],
@@ -52,7 +47,8 @@ static bool take_form(const place *p, double lo, double hi, const double c[3], l
     }
     for (int i = 0; i < 4 && is_one; ++i)
         for (int k = i; k < 4; ++k) {
-            const jet wide = form_of(n->wide, e, i, k), narrow = form_of(n->centre, e, i, k);
+            const jet wide = form_of(n->wide, n->wide, e, i, k),
+                      narrow = form_of(n->centre, n->centre, e, i, k);
             g[i][k] = g[k][i] = jet_values(&wide, &narrow, n->offset);
         }
     for (int k = 0; k < 4 && is_one; ++k) {
@@ -62,15 +58,6 @@ static bool take_form(const place *p, double lo, double hi, const double c[3], l
     free(all.ways);
     return is_one;
 }
-
-/* The elements of a form over some times, as motion_form_changes takes them. */
-typedef struct form_course {
-    const place *p;
-    double lo, hi;
-    const double *c, *w;
-    ld_interval (*e)[3];
-    form_elements before; /* at the middle */
-} form_course;
 
 static bool take_course(form_course *f, double lo, double hi, form_elements g)
 {
@@ -126,15 +113,46 @@ static bool needs_finer(form_course *f, const form_changes *found)
     return most > CHANGE_SEEN * seen;
 }
 
+/* The smaller of two bounds of each element. */
+static void take_smaller(const form_changes *x, form_changes *to)
+{
+    for (int n = 0; n < CHANGE_PARTS; ++n)
+        for (int i = 0; i < 5; ++i)
+            for (int k = 0; k < 4; ++k) {
+                const double other = i < 4 ? x->most[n][i][k] : x->lift[n][k];
+                double *most = i < 4 ? &to->most[n][i][k] : &to->lift[n][k];
+                if (!(*most <= other)) *most = other;
+            }
+}
+
+/* Whether all changes are rounding, by the size of the form. */
+#define CHANGE_TINY 0x1p-36
+static bool are_tiny(const form_course *f, const form_changes *found)
+{
+    double most = 0, size = 0;
+    for (int n = 0; n < CHANGE_PARTS; ++n)
+        for (int i = 0; i < 16; ++i) most = proof_larger(most, found->most[n][i / 4][i % 4]);
+    for (int i = 0; i < 9; ++i) size = proof_larger(size, ld_interval_mag(f->before[i / 3][i % 3]));
+    return most <= CHANGE_TINY * size;
+}
+
 void motion_form_changes(const place *p, double lo, double hi, const double c[3],
                          ld_interval e[3][3], const double w[3], form_changes *to)
 {
     form_course f = {.p = p, .lo = lo, .hi = hi, .c = c, .w = w, .e = e};
+    form_changes turned;
     const double at = middle(lo, hi);
     *to = (form_changes){.are_known = p->maps == 0};
     if (p->maps == 0 || !take_course(&f, at, at, f.before)) return;
+    const bool turns = form_turned_changes(&f, &turned);
+    if (turns && are_tiny(&f, &turned)) {
+        *to = turned;
+        return;
+    }
     to->are_known = find_changes(&f, 1, to);
     if (to->are_known && needs_finer(&f, to)) to->are_known = find_changes(&f, FINER, to);
+    if (turns && to->are_known) take_smaller(&turned, to);
+    if (turns && !to->are_known) *to = turned;
 }
 
 /* Lemma. x^T E x = h^T N^T E N h for h = (p, 1), which changes by no more than the sum of the

@@ -2,7 +2,7 @@
  * SPDX-License-Identifier: Apache-2.0 */
 #include <config.h>
 
-#include "tools/verify/shadow.h"
+#include "tools/verify/shadow_internal.h"
 
 #include <math.h>
 
@@ -10,30 +10,6 @@
 #include "tools/verify/round.h"
 
 /* --- Distances from a centre ------------------------------------------------------------------ */
-
-/* How much the distance depends on each variable, by its derivatives, about. No more is shared out
- * than what its values vary by; where derivatives have no bounds, it is shared by those of the
- * parts. */
-static void find_sizes(const jet *over, const jet *at, const jet parts[3],
-                       const double half[VARIABLES], double size[VARIABLES])
-{
-    const double most = over->v.hi - over->v.lo;
-    double sum = 0, ways[VARIABLES], way = PROOF_TINY;
-    for (int j = 0; j < VARIABLES; ++j) {
-        size[j] = fabs(ld_interval_mid(at->d[j])) * half[j];
-        for (int k = 0; k < VARIABLES; ++k) {
-            const ld_interval bend = j <= k ? over->h[j][k] : over->h[k][j];
-            if (half[j] > 0 && half[k] > 0)
-                size[j] += 0.5 * ld_interval_mag(bend) * half[j] * half[k];
-        }
-        ways[j] = 0;
-        for (int i = 0; i < 3; ++i) ways[j] += ld_interval_mag(parts[i].d[j]) * half[j];
-        sum += size[j];
-        way += ways[j];
-    }
-    for (int j = 0; j < VARIABLES && !(sum <= most); ++j)
-        size[j] = most * (sum < INFINITY ? size[j] / sum : ways[j] / way);
-}
 
 /* Bounds the distance from a centre. *size: NULL, or how much it depends on each variable. */
 static ld_interval distances(const kept *k, const aim *a, double *at_centre, double *size,
@@ -52,7 +28,7 @@ static ld_interval distances(const kept *k, const aim *a, double *at_centre, dou
     }
     *at_centre = ld_interval_mid(at.v);
     *blur = 0.5 * (at.v.hi - at.v.lo);
-    if (size != NULL) find_sizes(&over, &at, wide, half, size);
+    if (size != NULL) shadow_find_sizes(&over, &at, wide, 3, half, size);
     return jet_values(&over, &at, offset);
 }
 
@@ -120,7 +96,11 @@ void areas_sizes(const areas *all, size_t index, const aim *a, double size[VARIA
     double ends, blur = INFINITY, way[CLOCKS_MAX];
     for (size_t k = 0; k < s->of.when->count; ++k) clocks[k] = 0;
     for (int j = 0; j < VARIABLES; ++j) size[j] = INFINITY; /* of what has no bounds */
-    if (a->about != NULL) {
+    if (a->is_round) {
+        ld_interval unused_reach;
+        blur = 0;
+        shadow_at_all_angles(all->memory, s, a, &unused_reach, &ends, size);
+    } else if (a->about != NULL) {
         distances(look_jets(all->memory, &s->of, &s->where), a, &ends, size, &blur);
     } else if (look_net(all->memory, &s->of, &s->where, &x, &unused) == ENCLOSED && x.net != NULL) {
         net_along(&x, a->n, &r, way);
@@ -179,6 +159,24 @@ static ld_interval cast_about(memory *known, area *s, const kept *k, const aim *
     return ld_interval_add(x, ld_interval_plus_minus(change));
 }
 
+/* Bounds how far an area reaches at any angle; where that is not known, its bounds stay infinite.
+ * */
+static enclosed cast_turning(memory *known, area *s, const aim *a, split *by)
+{
+    place bare = s->of;
+    bare.maps = 0;
+    ld_interval x;
+    double middle_reach;
+    const kept *k = look_jets(known, &bare, &s->where);
+    const enclosed result = k->result;
+    *by = k->divide;
+    if (result != ENCLOSED || !shadow_at_all_angles(known, s, a, &x, &middle_reach, NULL))
+        return result;
+    s->ends[0] = s->ends[1] = middle_reach, s->least = x.lo;
+    for (int i = 0; i < NET_TIMES; ++i) s->upper[i] = x.hi;
+    return result;
+}
+
 /* Bounds an area, whose bounds are infinite. */
 static enclosed cast(areas *all, area *s, const aim *a, split *by)
 {
@@ -193,6 +191,7 @@ static enclosed cast(areas *all, area *s, const aim *a, split *by)
         for (int i = 0; i < NET_TIMES; ++i) s->upper[i] = all_of_it.hi;
         return result;
     }
+    if (a->is_round) return cast_turning(all->memory, s, a, by);
     result = look_net(all->memory, &s->of, &s->where, &x, by);
     if (result == ENCLOSED && x.net != NULL) {
         reach r;
@@ -210,7 +209,7 @@ const char *areas_add(areas *all, const place *of, const box3 *where, const aim 
     split by = {0, 0};
     const enclosed result = cast(all, &made, a, &by);
     if (result == ENCLOSED_EMPTY) return NULL;
-    if (result == ENCLOSED_SPLIT && by.along >= (a->about == NULL ? T : VARIABLES)) {
+    if (result == ENCLOSED_SPLIT && by.along >= (aim_is_of_jets(a) ? VARIABLES : T)) {
         all->cut = by;
         return NULL;
     }
@@ -231,7 +230,7 @@ const char *areas_divide(areas *all, size_t index, const aim *a, bool *divided)
     double most = 0, widest = 0, size[VARIABLES], clocks[CLOCKS_MAX], blur = 0;
     areas_sizes(all, index, a, size, clocks);
     for (size_t k = 0; k < was.of.when->count; ++k) blur = proof_larger(blur, clocks[k]);
-    for (int j = 0; j < (a->about != NULL ? VARIABLES : T); ++j) {
+    for (int j = 0; j < (aim_is_of_jets(a) ? VARIABLES : T); ++j) {
         const double lo = was.where.lo[j], hi = was.where.hi[j], mid = middle(lo, hi);
         if (!(lo < mid && mid < hi)) continue;
         const double width = hi - lo;
@@ -239,7 +238,7 @@ const char *areas_divide(areas *all, size_t index, const aim *a, bool *divided)
         by = (split){j, mid};
         most = size[j], widest = width;
     }
-    *divided = by.along >= 0 && (a->about != NULL || !(size[T] > 2 * most)) && !(blur > 2 * most);
+    *divided = by.along >= 0 && (aim_is_of_jets(a) || !(size[T] > 2 * most)) && !(blur > 2 * most);
     if (!*divided) return NULL;
     all->at[index] = all->at[--all->count];
     return add_halves(all, &was.of, &was.where, a, &by);

@@ -18,6 +18,8 @@ typedef struct centre centre; /* round.h */
 typedef struct aim {
     double n[3];
     const centre *about; /* NULL: an axis */
+    bool is_round;   /* of an axis: all angles count, of the map that turns most (orbit.h); and */
+    bool circles;    /* of shapes whose points are circles */
     double at;       /* of a centre: the time at which distances are bounded; NAN: at all times */
     double times[2]; /* for which that one stands */
     double slip;     /* how much their squares change from that time, at most; */
@@ -25,8 +27,12 @@ typedef struct aim {
     double radius;   /* of the middle, about */
 } aim;
 
+/* Whether an aim is bounded by jets, over boxes that are divided along t, too; else by control
+ * points. */
+static inline bool aim_is_of_jets(const aim *a) { return a->about != NULL || a->is_round; }
+
 /* A box of a piece of one side, which may be divided while the other side is not; along u and v
- * alone where a direction is bounded. */
+ * alone where control points bound it. */
 typedef struct area {
     place of;
     box3 where;

@@ -4,6 +4,7 @@
 
 #include "tools/verify/motion.h"
 #include "tools/verify/statement_internal.h"
+#include "tools/verify/turn.h"
 #include "tools/verify/words.h"
 
 #include <stdlib.h>
@@ -231,6 +232,8 @@ void statement_free(statement *s)
             for (size_t j = 0; j < g->pieces[i].count; ++j) {
                 formula_free(g->pieces[i].parts[j].f);
                 free(g->pieces[i].parts[j].net);
+                free(g->pieces[i].parts[j].turn);
+                circle_free(g->pieces[i].parts[j].circle);
             }
             free(g->pieces[i].parts);
         }

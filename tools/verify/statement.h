@@ -17,6 +17,8 @@ typedef struct part {
     double lo[3], hi[3], inner_lo[3], inner_hi[3];
     formula *f;
     struct net *net;           /* of a shape that is a polynomial; NULL: it is none */
+    struct circle *circle;     /* of a shape that is one about each v; NULL: it is none */
+    struct turning *turn;      /* of a map that turns by an angle; NULL: it does not */
     bool is_moving, is_affine; /* a shape that depends on t; a map that is affine in x, y and z */
 } part;
 
