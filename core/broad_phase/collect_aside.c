@@ -37,22 +37,23 @@ imp_code frames_set_aside(collection *all, frame_list *frames, size_t k, double 
 {
     const candidate_pair *p = &all->list->pairs[k];
     size_t *of_pair = frames->of_pair[k];
+    const double enough = 0.25 * all->slip_most;
     const surface *s[2];
     imp_model bare[2][3];
     time_window times;
     imp_code code = frames_make_roots(all, frames, k, &times, error);
     if (code != IMP_SUCCESS || !(times.lo < times.hi)) return code;
-    for (int side = 0; side < 2; ++side) {
-        const tree *t = frames->at[of_pair[side]].made.tree;
-        s[side] = tree_surface(t);
-        if (!node_bare_models(tree_root(t), bare[side])) return IMP_SUCCESS;
-    }
     const imp_region over = region_make((double[3]){0, 0, times.lo}, (double[3]){0, 0, times.hi});
+    aside_look *const looks[2] = {&frames->at[of_pair[0]].aside, &frames->at[of_pair[1]].aside};
+    const tree *const t[2] = {frames->at[of_pair[0]].made.tree, frames->at[of_pair[1]].made.tree};
+    for (int side = 0; side < 2; ++side) s[side] = tree_surface(t[side]);
+    if (!surface_may_set_aside(s, &over, enough, looks)) return IMP_SUCCESS;
+    for (int side = 0; side < 2; ++side)
+        if (!node_bare_models(tree_root(t[side]), bare[side])) return IMP_SUCCESS;
     shared_aside shared;
     int asked = 0;
-    aside_look *const looks[2] = {&frames->at[of_pair[0]].aside, &frames->at[of_pair[1]].aside};
-    const imp_status status = surface_shared_aside(s, bare, &over, 0.25 * all->slip_most,
-                                                   &all->spans, looks, &shared, &asked);
+    const imp_status status =
+        surface_shared_aside(s, bare, &over, enough, &all->spans, looks, &shared, &asked);
     if (status != IMP_STATUS_OK) return distance_fault(s[asked], status, error);
     for (int side = 0; side < 2; ++side) {
         if (shared.which[side] == 0) continue;

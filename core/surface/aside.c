@@ -166,6 +166,17 @@ static imp_status reach_upper(const aside_search *q, int side, uint32_t aside,
     return IMP_STATUS_OK;
 }
 
+static double exchanged_upper(const aside_search *q, const uint32_t which[2])
+{
+    return sum_upper(exchanges_upper(q, 0, which[0]), exchanges_upper(q, 1, which[1]));
+}
+
+/* Whether these maps may be set aside, as far as is known without bounds over time. */
+static bool may_choose(const aside_search *q, const uint32_t which[2])
+{
+    return exchanged_upper(q, which) <= q->enough && !aside_images_differ(q, which);
+}
+
 /* Looks at one choice of maps. *slip INFINITY: they may not be set aside. */
 static imp_status try_choice(const aside_search *q, const uint32_t which[2],
                              const imp_model bare[2][3], double *slip)
@@ -173,9 +184,8 @@ static imp_status try_choice(const aside_search *q, const uint32_t which[2],
     aside_part p[2];
     double reach[2], most;
     *slip = INFINITY;
-    const double exchanged =
-        sum_upper(exchanges_upper(q, 0, which[0]), exchanges_upper(q, 1, which[1]));
-    if (!(exchanged <= q->enough) || aside_images_differ(q, which)) return IMP_STATUS_OK;
+    const double exchanged = exchanged_upper(q, which);
+    if (!may_choose(q, which)) return IMP_STATUS_OK;
     for (int side = 0; side < 2; ++side) aside_part_of(q->s[side], which[side], &p[side]);
     if (are_same_maps(p)) return *slip = exchanged, IMP_STATUS_OK;
     const double size = surface_size_upper(bare[0]) + surface_size_upper(bare[1]);
@@ -198,17 +208,24 @@ static int bits_of(unsigned choice)
     return bits;
 }
 
+/* Sets the maps of either surface that are chosen among those that move. */
+static void maps_of(const aside_search *q, unsigned choice, uint32_t which[2])
+{
+    which[0] = which[1] = 0;
+    for (size_t k = 0; k < q->count; ++k)
+        if ((choice >> k & 1u) != 0) which[q->moving[k].side] |= 1u << q->moving[k].map;
+}
+
 /* Tries the choices of the most maps first. */
 static imp_status try_choices(const aside_search *q, const imp_model bare[2][3],
                               shared_aside *found)
 {
     for (int bits = (int)q->count; bits > 1; --bits)
         for (unsigned choice = 1; choice < 1u << q->count; ++choice) {
-            uint32_t which[2] = {0, 0};
+            uint32_t which[2];
             double slip;
             if (bits_of(choice) != bits) continue;
-            for (size_t k = 0; k < q->count; ++k)
-                if ((choice >> k & 1u) != 0) which[q->moving[k].side] |= 1u << q->moving[k].map;
+            maps_of(q, choice, which);
             const imp_status status = try_choice(q, which, bare, &slip);
             if (status != IMP_STATUS_OK) return status;
             if (!(slip <= q->enough)) continue;
@@ -218,20 +235,45 @@ static imp_status try_choices(const aside_search *q, const imp_model bare[2][3],
     return IMP_STATUS_OK;
 }
 
+/* Looks at the maps of both surfaces. *some false: they have none that might be set aside. */
+static imp_status begin(aside_search *q, bool *some)
+{
+    *some = false;
+    for (int side = 0; side < 2; ++side) {
+        if (q->s[side]->map_count > ASIDE_MAPS_MOST || !carried_exactly(q->s[side]))
+            return IMP_STATUS_OK;
+        const imp_status status = aside_look_at_maps(q, side);
+        if (status != IMP_STATUS_OK) return status;
+    }
+    *some = q->count >= 2 && q->count <= ASIDE_MOVING_MOST;
+    return IMP_STATUS_OK;
+}
+
+bool surface_may_set_aside(const surface *const s[2], const imp_region *times, double enough,
+                           aside_look *const looks[2])
+{
+    int asked;
+    aside_search q = {.s = s, .times = times, .enough = enough, .looks = looks, .asked = &asked};
+    bool some, may = false;
+    if (begin(&q, &some) != IMP_STATUS_OK) return true; /* surface_shared_aside tells why */
+    for (unsigned choice = 1; some && choice < 1u << q.count && !may; ++choice) {
+        uint32_t which[2];
+        maps_of(&q, choice, which);
+        may = bits_of(choice) > 1 && may_choose(&q, which);
+    }
+    return may;
+}
+
 imp_status surface_shared_aside(const surface *const s[2], const imp_model bare[2][3],
                                 const imp_region *times, double enough, size_t *spans,
                                 aside_look *const looks[2], shared_aside *found, int *asked)
 {
     aside_search q = {
         .s = s, .times = times, .enough = enough, .spans = spans, .looks = looks, .asked = asked};
+    bool some;
     *found = (shared_aside){{0, 0}, 0};
-    imp_status status = IMP_STATUS_OK;
-    for (int side = 0; side < 2 && status == IMP_STATUS_OK; ++side) {
-        if (s[side]->map_count > ASIDE_MAPS_MOST || !carried_exactly(s[side])) return IMP_STATUS_OK;
-        status = aside_look_at_maps(&q, side);
-    }
-    if (status == IMP_STATUS_OK && q.count >= 2 && q.count <= ASIDE_MOVING_MOST)
-        status = try_choices(&q, bare, found);
+    imp_status status = begin(&q, &some);
+    if (status == IMP_STATUS_OK && some) status = try_choices(&q, bare, found);
     return status == IMP_STATUS_UNBOUNDED ? IMP_STATUS_OK : status;
 }
 

@@ -33,6 +33,11 @@ typedef struct aside_look {
     aside_image image[1 << ASIDE_KEPT]; /* of the origin at one moment, under each choice of maps */
 } aside_look;                           /* begins as {.from = INFINITY} */
 
+/* Whether there may be such maps with a slip of at most `enough`: false where what is known of
+ * either surface, in `looks`, tells that there are none. Neither moves by itself. */
+bool surface_may_set_aside(const surface *const s[2], const imp_region *times, double enough,
+                           aside_look *const looks[2]);
+
 /* Finds such maps with a slip of at most `enough`. `bare` holds models of each surface before its
  * maps, of which only the ranges are used; neither moves by itself. *spans: how many parts of time
  * may still be looked at, some microseconds each; it falls. `looks` holds what is known of either

@@ -210,6 +210,8 @@ static shared_aside shared_of(const imp_scene *scene, double size, double enough
     for (int k = 0; k < 6; ++k) bare[k / 3][k % 3] = imp_between(-size, size);
     ck_assert_int_eq(surface_shared_aside(s, bare, &times, enough, spans, looks, &shared, &asked),
                      IMP_STATUS_OK);
+    if (shared.which[0] != 0 || shared.which[1] != 0)
+        ck_assert(surface_may_set_aside(s, &times, enough, looks));
     size_t rest = *spans;
     ck_assert_int_eq(surface_shared_aside(s, bare, &times, enough, &rest, looks, &again, &asked),
                      IMP_STATUS_OK);
