@@ -45,7 +45,7 @@ static double settled(const min_distance *m)
 static double waiting(const min_distance *m)
 {
     const double start = m->start_count > 0 ? m->starts[m->start_count - 1].key[0] : INFINITY;
-    const double top = m->heap.count > 0 ? pair_heap_top(&m->heap)->key[0] : INFINITY;
+    const double top = m->heap.count > 0 ? pair_heap_first(&m->heap) : INFINITY;
     return start < top ? start : top;
 }
 

@@ -17,20 +17,21 @@ static bool place_before(const pair_place *p, const pair_place *q)
 /* Most searches have few pairs waiting: their first block is one that malloc has ready. */
 enum { CAPACITY_LEAST = 5 };
 
-/* Beyond this many pairs room grows by a quarter, for which the heap of the process mostly moves
+/* Beyond this many pairs room grows by an eighth, for which the heap of the process mostly moves
  * pages, not bytes; below it, room doubles. */
 enum { CAPACITY_LARGE = 1 << 14 };
 
 static size_t capacity_for(size_t count)
 {
-    return count < CAPACITY_LARGE ? 2 * count + CAPACITY_LEAST : count + count / 4;
+    return count < CAPACITY_LARGE ? 2 * count + CAPACITY_LEAST : count + count / 8;
 }
 
 bool pair_heap_grow(pair_heap *heap, size_t more)
 {
     const size_t capacity = capacity_for(heap->count + more);
     const size_t used = heap->capacity * PAIR_HEAP_BYTES;
-    pair *slots = arena_store_regrow(heap->store, heap->slots, used, capacity * PAIR_HEAP_BYTES);
+    pair_rest *slots =
+        arena_store_regrow(heap->store, heap->slots, used, capacity * PAIR_HEAP_BYTES);
     if (slots == NULL) return false;
     pair_place *places = (pair_place *)(void *)(slots + capacity);
     memmove(places, slots + heap->capacity, heap->capacity * sizeof *places);
@@ -47,7 +48,7 @@ void pair_heap_push(pair_heap *heap, const pair *p)
     pair_place *places = heap->places;
     size_t hole = heap->count++;
     const pair_place place = {{p->key[0], p->key[1]}, p->serial, places[hole].slot};
-    heap->slots[place.slot] = *p;
+    memcpy(&heap->slots[place.slot], (const char *)p + PAIR_REST, sizeof *heap->slots);
     while (hole > 0) {
         const size_t parent = (hole - 1) / 2;
         if (!place_before(&place, &places[parent])) break;
@@ -57,10 +58,20 @@ void pair_heap_push(pair_heap *heap, const pair *p)
     places[hole] = place;
 }
 
+pair pair_heap_at(const pair_heap *heap, size_t index)
+{
+    assert(index < heap->count);
+    const pair_place *place = &heap->places[index];
+    pair p = {.key = {place->key[0], place->key[1]}, .serial = place->serial};
+    memcpy((char *)&p + PAIR_REST, &heap->slots[place->slot], sizeof *heap->slots);
+    return p;
+}
+
 pair pair_heap_pop(pair_heap *heap)
 {
     assert(heap->count > 0);
     pair_place *places = heap->places;
+    const pair first = pair_heap_at(heap, 0);
     const size_t count = --heap->count, free_slot = places[0].slot;
     const pair_place last = places[count];
     size_t hole = 0;
@@ -74,7 +85,7 @@ pair pair_heap_pop(pair_heap *heap)
     }
     places[hole] = last;
     places[count].slot = free_slot;
-    return heap->slots[free_slot];
+    return first;
 }
 
 void pair_heap_clear(pair_heap *heap)

@@ -4,6 +4,7 @@
 #define CORE_SOLVER_PAIR_HEAP_H
 
 #include <assert.h>
+#include <stddef.h>
 
 #include "core/base/arena_store.h"
 #include "core/bounds/time_window.h"
@@ -15,11 +16,11 @@
  * window (paper, eq. 5) and the squared distance of the centres at that time. */
 
 typedef struct pair {
-    time_window window; /* when they may be near; within both nodes' times */
     double key[2];      /* the least comes first; no NaN */
-    double moment;   /* of the window, at which the distance may be least; axes are chosen for it */
-    uint64_t serial; /* order of making */
-    vec3 axis;       /* best separating axis at the window's start or moment; 0: none */
+    uint64_t serial;    /* order of making */
+    time_window window; /* when they may be near; within both nodes' times */
+    double moment; /* of the window, at which the distance may be least; axes are chosen for it */
+    vec3 axis;     /* best separating axis at the window's start or moment; 0: none */
     node *a, *b;
     uint32_t candidate_pair; /* index in the query's list of candidate pairs */
     uint32_t wait;           /* generations until a witness is sought again */
@@ -31,7 +32,13 @@ typedef struct pair {
     uint32_t proof; /* where a proof is kept */
 } pair;
 
-/* The keys of a pair, and the index of the pair itself, which never moves. */
+/* What is kept of a waiting pair beside its keys and serial number. */
+enum { PAIR_REST = offsetof(pair, window) };
+typedef struct pair_rest {
+    double bytes[(sizeof(pair) - PAIR_REST) / sizeof(double)];
+} pair_rest;
+
+/* The keys of a pair, and the index of its rest, which never moves. */
 typedef struct pair_place {
     double key[2];
     uint64_t serial;
@@ -40,12 +47,13 @@ typedef struct pair_place {
 
 typedef struct pair_heap {
     arena_store *store; /* of that memory; NULL: the heap of the process */
-    pair *slots;        /* one block of memory that also holds `places` */
+    pair_rest *slots;   /* one block of memory that also holds `places` */
     pair_place *places; /* the heap; from `count` on, the free slots */
     size_t count, capacity;
 } pair_heap; /* begins as {0} or with its store; pair_heap_clear frees */
 
-enum { PAIR_HEAP_BYTES = sizeof(pair_place) + sizeof(pair) }; /* for each pair of its capacity */
+/* Bytes for each pair of its capacity. */
+enum { PAIR_HEAP_BYTES = sizeof(pair_place) + sizeof(pair_rest) };
 
 /* Allocates memory for `more` pushes, which the heap has no room for. False: no memory; the heap is
  * unchanged. */
@@ -62,14 +70,16 @@ void pair_heap_push(pair_heap *heap, const pair *p);
 
 /* Returns a pair: the first for index 0, the others in no particular order. Precondition: index <
  * count. */
-static inline const pair *pair_heap_at(const pair_heap *heap, size_t index)
+pair pair_heap_at(const pair_heap *heap, size_t index);
+
+/* Returns the first key of the first pair. Precondition: count > 0. */
+static inline double pair_heap_first(const pair_heap *heap)
 {
-    assert(index < heap->count);
-    return &heap->slots[heap->places[index].slot];
+    assert(heap->count > 0);
+    return heap->places[0].key[0];
 }
 
-/* Return the first pair; pop also removes it. Precondition: count > 0. */
-static inline const pair *pair_heap_top(const pair_heap *heap) { return pair_heap_at(heap, 0); }
+/* Returns the first pair and removes it. Precondition: count > 0. */
 pair pair_heap_pop(pair_heap *heap);
 
 void pair_heap_clear(pair_heap *heap);

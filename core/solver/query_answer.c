@@ -92,7 +92,9 @@ bool imp_query_pending(const imp_query *query, size_t index, imp_pending *pendin
 {
     if (query == NULL || pending == NULL) return false;
     const pair_heap *heap = &query->impact.heap;
-    const pair *waiting = index < heap->count ? pair_heap_at(heap, index) : NULL;
+    pair first;
+    const pair *waiting = NULL;
+    if (index < heap->count) first = pair_heap_at(heap, index), waiting = &first;
     const size_t k = waiting != NULL ? waiting->candidate_pair
                                      : query->candidates_tested + (index - heap->count);
     if (query->clearance != NULL || k >= query->candidates.pair_count) return false;

@@ -39,11 +39,11 @@ static void explain_pending(const imp_query *query, size_t index, imp_explanatio
     if (heap == NULL) return;
     const size_t every = heap->count / PENDING_MOST + 1;
     for (size_t k = 0; k < heap->count; k += every) {
-        const pair *p = pair_heap_at(heap, k);
-        if (p->candidate_pair != index) continue;
+        const pair p = pair_heap_at(heap, k);
+        if (p.candidate_pair != index) continue;
         const candidate_pair *both = &query->candidates.pairs[index];
         row->divided += 1;
-        row->by[explanation_of(p, both, apart)] += 1;
+        row->by[explanation_of(&p, both, apart)] += 1;
     }
 }
 

@@ -134,7 +134,7 @@ static bool complete_test(impact *im, pair *p)
     const bool near = pair_test_fully(im, p);
     pair_note_test(im->proof, p, near);
     if (!near) return false;
-    const bool first = im->heap.count == 0 || !(p->window.lo > pair_heap_top(&im->heap)->key[0]);
+    const bool first = im->heap.count == 0 || !(p->window.lo > pair_heap_first(&im->heap));
     if (first && !(im->upper.is_known && p->window.lo >= im->upper.t)) {
         if (p->window.lo > im->t_lower) im->t_lower = p->window.lo;
         p->key[0] = p->window.lo;
@@ -165,7 +165,7 @@ bool impact_pass(impact *im, size_t count)
 static bool is_settled(const impact *im)
 {
     return im->upper.is_known &&
-           (im->heap.count == 0 || !(pair_heap_top(&im->heap)->key[0] < im->upper.t));
+           (im->heap.count == 0 || !(pair_heap_first(&im->heap) < im->upper.t));
 }
 
 /* Ends the search with the known contact. */
