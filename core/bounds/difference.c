@@ -163,7 +163,7 @@ IMP_QUAD_INLINE void recentre(const node *a, const node *b, const time_window *w
     const imp_quad apart = triple_load(b->f.a) - triple_load(a->f.a);
     const imp_quad delta = apart + (mb.shift - ma.shift), drift = mb.drift - ma.drift,
                    bend = mb.bend - ma.bend;
-    const imp_quad motion = triple_load(a->motion) + triple_load(b->motion);
+    const imp_quad motion = triple_motion_upper(&a->f) + triple_motion_upper(&b->f);
     const imp_quad slack =
         e + imp_quad_all(MOTION_ROUNDING * UNIT_ROUNDOFF) * (imp_quad_abs(apart) + motion);
     const imp_quad squares = ma.squares + mb.squares;

@@ -153,7 +153,7 @@ IMP_QUAD_INLINE double net_model_slack_upper(const net_model *p, vec3 n, double 
     const quadratic3 *q = &p->model->f;
     const imp_quad form = imp_quad_abs(triple_load(q->bu)) + imp_quad_abs(triple_load(q->bv)) +
                           imp_quad_abs(triple_load(q->quu)) + imp_quad_abs(triple_load(q->quv)) +
-                          imp_quad_abs(triple_load(q->qvv)) + triple_load(p->model->motion);
+                          imp_quad_abs(triple_load(q->qvv)) + triple_motion_upper(q);
     double error = 0;
     *size = 0;
     for (int i = 0; i < 3; ++i) {

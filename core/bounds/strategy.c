@@ -4,6 +4,7 @@
 
 #include "core/bounds/strategy.h"
 
+#include "core/base/rounding.h"
 #include "core/bounds/tuning.h"
 
 /* --- What nodes are like ---------------------------------------------------------------------- */
@@ -52,9 +53,9 @@ static bool are_quadratics_closer(const node *a, const node *b)
 
 bool strategy_is_tangent(const node *a, const node *b)
 {
-    const double cosine = vec3_dot(a->normal, b->normal), least = TUNING_FIELD_COSINE;
-    return cosine * cosine >
-           least * least * vec3_dot(a->normal, a->normal) * vec3_dot(b->normal, b->normal);
+    const vec3 m = node_normal(a), n = node_normal(b);
+    const double cosine = vec3_dot(m, n), least = TUNING_FIELD_COSINE;
+    return cosine * cosine > least * least * vec3_dot(m, m) * vec3_dot(n, n);
 }
 
 /* --- Hulls of control nets -------------------------------------------------------------------- */
@@ -146,10 +147,17 @@ void strategy_note_turning(const w_range *before, const w_range *after, bool som
 /* Motion along the normal below this part of all motion is rounding. */
 #define ALONG_FACE 0x1p-30
 
+static double motion_along(const quadratic3 *f, int i)
+{
+    PAD_COVERS(8, 3); /* three sums */
+    return padded_upper(fabs(f->bt[i]) + 2 * fabs(f->qtt[i]) + fabs(f->qut[i]) + fabs(f->qvt[i]),
+                        8);
+}
+
 bool strategy_slides_on_face(const node *own, const node *other)
 {
     const quadratic3 *f = &own->f, *g = &other->f;
-    const vec3 n = other->normal;
+    const vec3 n = node_normal(other);
     double bt = 0, ut = 0, vt = 0, tt = 0, all = 0;
     if (other->many != NULL || !node_has_normal(other) || node_bends(other)) return false;
     for (int i = 0; i < 3; ++i) {
@@ -157,7 +165,7 @@ bool strategy_slides_on_face(const node *own, const node *other)
         ut += n.x[i] * f->qut[i];
         vt += n.x[i] * f->qvt[i];
         tt += n.x[i] * (f->qtt[i] - g->qtt[i]);
-        all += own->motion[i] + other->motion[i];
+        all += motion_along(f, i) + motion_along(g, i);
     }
     const double along = fabs(bt) + fabs(ut) + fabs(vt) + fabs(tt);
     return all > 0 && along <= ALONG_FACE * all * vec3_norm1(n);

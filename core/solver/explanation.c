@@ -91,9 +91,10 @@ static double curvature_along(const node *n, const vec3 *unit)
 static bool lie_along(const pair *p)
 {
     if (!strategy_is_tangent(p->a, p->b)) return false;
-    const double length = vec3_norm(p->a->normal);
+    const vec3 normal = node_normal(p->a);
+    const double length = vec3_norm(normal);
     if (!(length > 0)) return false;
-    const vec3 unit = vec3_scale(p->a->normal, 1 / length);
+    const vec3 unit = vec3_scale(normal, 1 / length);
     const double a = curvature_along(p->a, &unit), b = curvature_along(p->b, &unit);
     return a * b > 0 && fabs(a - b) < 0.5 * fmax(fabs(a), fabs(b));
 }

@@ -133,13 +133,8 @@ IMP_QUAD_INLINE void lanes_take(node *n, const model_lanes *m)
     triple_store(n->e, m->e);
     memcpy(n->lo, &m->lo, sizeof n->lo);
     memcpy(n->hi, &m->hi, sizeof n->hi);
-    const imp_quad motion = imp_quad_abs(m->b[2]) + imp_quad_all(2) * imp_quad_abs(m->q[IMP_TT]) +
-                            imp_quad_abs(m->q[IMP_UT]) + imp_quad_abs(m->q[IMP_VT]);
-    PAD_COVERS(8, 3); /* three sums */
-    triple_store(n->motion, quad_padded_upper(motion, 8));
     lanes_take_spread(n, m);
     n->bounded = true;
-    n->normal = vec3_cross(vec3_from(n->f.bu), vec3_from(n->f.bv));
 }
 
 #endif

@@ -51,8 +51,6 @@ typedef struct node {
     quadratic3 f;               /* with e, encloses the surface over the region; length */
     double e[3];                /* remainder; length */
     double lo[3], hi[3];        /* axis-aligned box; length, world space */
-    double motion[3];           /* >= |bt| + 2 |qtt| + |qut| + |qvt|; length */
-    vec3 normal;                /* bu x bv, any length; 0 where the node has none */
     double radius;              /* of a ball around a that holds the surface; rate trees only */
     double extent[3];           /* how much u, v, t move a point across the region, about; length */
     double nonlinear_extent[3]; /* the nonlinear part of that; length */
@@ -161,7 +159,13 @@ static inline const net *node_net_made(const node *n)
     return made != &net_none ? made : NULL;
 }
 
-static inline bool node_has_normal(const node *n) { return vec3_norm1(n->normal) > 0; }
+/* Returns bu x bv, of any length; 0 where the node has no normal. */
+static inline vec3 node_normal(const node *n)
+{
+    return n->bounded ? vec3_cross(vec3_from(n->f.bu), vec3_from(n->f.bv)) : (vec3){{0, 0, 0}};
+}
+
+static inline bool node_has_normal(const node *n) { return vec3_norm1(node_normal(n)) > 0; }
 
 /* Whether its quadratic bends along u or v. */
 static inline bool node_bends(const node *n)

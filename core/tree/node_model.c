@@ -43,7 +43,6 @@ IMP_QUAD_INLINE const char *take(node *n, const imp_model model[3], bool may_be_
     lanes_take(n, &m);
     n->bounded = bounded;
     if (!bounded) {
-        n->normal = (vec3){{0, 0, 0}};
         memcpy(n->extent, n->region.d, sizeof n->extent);
         memcpy(n->nonlinear_extent, n->region.d, sizeof n->nonlinear_extent);
     }

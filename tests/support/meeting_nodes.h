@@ -43,8 +43,6 @@ static inline void random_node(uint64_t *state, node *n, double size, double ben
         for (int k = 0; k < 5; ++k) *q[k] = bend * size * random_between(state, -1, 1);
         f->qtt[i] = bend * motion * random_between(state, -1, 1);
         n->e[i] = random_bits(state) % 2 ? bend * size * random_power(state, -8, 0) : 0;
-        n->motion[i] = (fabs(f->bt[i]) + 2 * fabs(f->qtt[i]) + fabs(f->qut[i]) + fabs(f->qvt[i])) *
-                       (1 + 0x1p-50);
         n->lo[i] = -INFINITY;
         n->hi[i] = INFINITY;
     }
@@ -95,8 +93,6 @@ static inline void make_nested(uint64_t *state, meeting *m, double size)
         m->b.f.qut[i] *= way;
         m->b.f.qvt[i] *= way;
         m->a.e[i] = m->b.e[i] = random_bits(state) % 2 ? little : 0;
-        m->a.motion[i] = 2 * (fabs(m->a.f.bt[i]) + fabs(m->a.f.qtt[i]) + 4 * size);
-        m->b.motion[i] = m->a.motion[i] + 5 * little;
     }
 }
 

@@ -34,8 +34,6 @@ static node draw_model(uint64_t *state, double far)
         f->qut[i] = random_coefficient(state, 0.3), f->qvt[i] = random_coefficient(state, 0.3);
         if (is_accelerated) f->qtt[i] = random_coefficient(state, 0.5);
         n.e[i] = random_power(state, -20, -3);
-        n.motion[i] = (fabs(f->bt[i]) + 2 * fabs(f->qtt[i]) + fabs(f->qut[i]) + fabs(f->qvt[i])) *
-                      (1 + 0x1p-50);
     }
     return n;
 }
@@ -131,7 +129,6 @@ START_TEST(acceleration_is_seen_along_the_axis)
         const double bend = k / 16.; /* height: 1/2 - s / 2 + bend (s^2 - 1), 1 at -1 and 0 at 1 */
         node b = {.region = region_make(zero, one), .bounded = true};
         b.f.a[2] = 0.5 - bend, b.f.bt[2] = -0.5, b.f.qtt[2] = bend;
-        b.motion[2] = 0.5 + 2 * fabs(bend);
         for (int i = 0; i < 3; ++i) b.region.d[i] = 0.5;
         time_window w = {0, 1};
         const double gamma_clear = 0.25, chord = 0.75 - fmax(bend, 0);

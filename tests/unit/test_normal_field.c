@@ -53,7 +53,6 @@ static void turn_cap(node *x, double h, double k)
         x->f.bt[i] = k * u;
         x->f.qut[i] = -h * k * n;
         x->f.qtt[i] = -0.5 * k * k * n;
-        x->motion[i] = fabs(x->f.bt[i]) + fabs(x->f.qut[i]) + 2 * fabs(x->f.qtt[i]);
     }
 }
 
@@ -214,9 +213,6 @@ static meeting warped(uint64_t *state, double s[4], double g, int edges)
         memset(f->qvv, 0, sizeof f->qvv);
         for (size_t k = 0; k < sizeof all / sizeof *all; ++k)
             add_across(state, all[k], random_bits(state) % 2 ? random_power(state, -8, 1) : 0);
-        for (int i = 0; i < 3; ++i)
-            both[side]->motion[i] =
-                fabs(f->bt[i]) + 2 * fabs(f->qtt[i]) + fabs(f->qut[i]) + fabs(f->qvt[i]);
     }
     for (int k = 0; k < 4; ++k) s[k] = suite_end_or_inside(state);
     for (int side = 0; side < 2; ++side) {
@@ -318,11 +314,7 @@ static meeting nested(uint64_t *state, double s[4], double g)
         b[k] += little * random_between(state, -1, 1);
     node *both[2] = {&m.a, &m.b};
     for (int side = 0; side < 2; ++side) {
-        const quadratic3 *f = &both[side]->f;
         add_drift(state, both[side], h * (is_fast ? 1 : 0x1p-5));
-        for (int i = 0; i < 3; ++i)
-            both[side]->motion[i] =
-                fabs(f->bt[i]) + 2 * fabs(f->qtt[i]) + fabs(f->qut[i]) + fabs(f->qvt[i]);
     }
     m.t = 0.5 + 0.5 * suite_end_or_inside(state);
     across(state, &m.a, s, m.t, toward);
@@ -360,9 +352,9 @@ END_TEST
 /* Every length times 2^k. */
 static void enlarge(node *n, int k)
 {
-    double *const all[] = {(double *)&n->f, n->e, n->motion};
-    const size_t counts[] = {sizeof n->f / sizeof(double), 3, 3};
-    for (int part = 0; part < 3; ++part)
+    double *const all[] = {(double *)&n->f, n->e};
+    const size_t counts[] = {sizeof n->f / sizeof(double), 3};
+    for (int part = 0; part < 2; ++part)
         for (size_t i = 0; i < counts[part]; ++i) all[part][i] = ldexp(all[part][i], k);
 }
 

@@ -182,7 +182,7 @@ static void draw_meeting(uint64_t *state, meeting *m, bool alike)
     m->t = draw_moment(state, -6, &m->window);
     m->gamma_clear = random_power(state, -14, 0);
     for (int i = 0; i < 3; ++i) m->along.x[i] = draw(state, 1);
-    if (alike && random_bits(state) % 4) m->along = m->a.n.normal;
+    if (alike && random_bits(state) % 4) m->along = node_normal(&m->a.n);
     m->along = vec3_scale(m->along, 1 / vec3_norm(m->along));
 }
 

@@ -82,7 +82,6 @@ START_TEST(a_glance_leaves_when_boxes_pass_each_other)
 {
     meeting m = two_caps(0.1, 1.1, 0);
     m.b.f.bt[0] = -10;
-    m.b.motion[0] = 10;
     ck_assert(moving_boxes_cut(&m.a, &m.b, 1e-6, &m.window));
     ck_assert(m.window.lo > 0.48 && m.window.lo < 0.5 && m.window.hi > 0.5 && m.window.hi < 0.52);
     m.window = (time_window){0, 1};
@@ -94,7 +93,7 @@ END_TEST
 START_TEST(a_window_shrinks_to_the_moment_of_contact)
 {
     meeting m = two_caps(1e-9, -1, 1);
-    for (int i = 0; i < 3; ++i) m.b.f.bt[i] = -2 * m.b.f.a[i], m.b.motion[i] = 4;
+    for (int i = 0; i < 3; ++i) m.b.f.bt[i] = -2 * m.b.f.a[i];
     vec3 axis = {{0, 0, 0}};
     ck_assert(separation_window(&m.a, &m.b, 1e-3, &m.window, &axis, NULL));
     /* the gap is 1 - 2 (2 t - 1) = 3 - 4 t: 1e-3 at t = 0.74975 and at 0.75025 */

@@ -118,7 +118,6 @@ static meeting two_edges(double gap)
         m.b.f.a[i] = gap * n[i] + 0.1 * u[i];
         m.b.f.bu[i] = v[i] + 0.3 * u[i];
         m.b.f.bt[i] = 2.5 * u[i];
-        m.b.motion[i] = fabs(m.b.f.bt[i]);
     }
     m.a.extent[0] = m.b.extent[0] = 1;
     return m;
@@ -146,15 +145,11 @@ START_TEST(where_hulls_meet_there_is_no_gjk_axis)
 }
 END_TEST
 
-/* Coefficient k of all three coordinates; 10: the remainders. Motions follow, as in any node. */
+/* Coefficient k of all three coordinates; 10: the remainders. */
 static void spoil(node *n, int k, double value)
 {
-    double *coordinates = k < 10 ? (double *)&n->f + 4 * k : n->e;
-    for (int i = 0; i < 3; ++i) {
-        coordinates[i] = value;
-        n->motion[i] +=
-            fabs(n->f.bt[i]) + fabs(n->f.qtt[i]) + fabs(n->f.qut[i]) + fabs(n->f.qvt[i]);
-    }
+    double *coordinates = k < 10 ? (double *)&n->f + 3 * k : n->e;
+    for (int i = 0; i < 3; ++i) coordinates[i] = value;
 }
 
 /* What touches: two faces; edges that cross; an edge of one side on the other's face; a corner. */

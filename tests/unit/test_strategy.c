@@ -13,7 +13,6 @@ static node flat_patch(void)
 {
     node n = {.region = region_make((double[3]){0, 0, 0}, (double[3]){1, 1, 1}),
               .extent = {1, 1, 0},
-              .normal = {{0, 0, 1}},
               .bounded = true};
     n.f.bu[0] = n.f.bv[1] = 0.5;
     return n;
@@ -29,7 +28,7 @@ static node curved_patch(double bend)
 static node straight_edge(void)
 {
     node n = flat_patch();
-    n.normal = (vec3){{0, 0, 0}};
+    n.f.bv[1] = 0;
     n.extent[PARAMETER_V] = 0;
     return n;
 }
@@ -138,10 +137,10 @@ END_TEST
 START_TEST(what_moves_along_a_face_is_asked_for_its_distance_from_that)
 {
     node a = curved_patch(0.5), face = flat_patch();
-    a.f.bt[0] = a.motion[0] = 1;
+    a.f.bt[0] = 1;
     ck_assert(strategy_slides_on_face(&a, &face));
     ck_assert(strategy_takes_distances(&a, &face, &(slide_signs){.is_parted = true}, GOAL_CONTACT));
-    a.f.bt[2] = a.motion[2] = 1e-3;
+    a.f.bt[2] = 1e-3;
     ck_assert(!strategy_slides_on_face(&a, &face));
     ck_assert(!strategy_slides_on_face(&face, &a)); /* is not flat */
 }
@@ -151,7 +150,8 @@ START_TEST(common_maps_are_paid_for_where_nodes_are_large_or_tangent)
 {
     node a = curved_patch(0.5), b = curved_patch(0.5);
     ck_assert(strategy_is_tangent(&a, &b) && strategy_distance_pays(&a, &b, 1));
-    b.normal = (vec3){{1, 0, 0}};
+    memcpy(b.f.bu, (double[3]){0, 0.5, 0}, sizeof b.f.bu); /* b lies in the plane x = 0 */
+    memcpy(b.f.bv, (double[3]){0, 0, 0.5}, sizeof b.f.bv);
     ck_assert(!strategy_is_tangent(&a, &b) && !strategy_distance_pays(&a, &b, 1));
     ck_assert(strategy_distance_pays(&a, &b, 0));
     b.e[0] = 10;
