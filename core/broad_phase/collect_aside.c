@@ -21,15 +21,15 @@ static int own_maps(const surface *s, size_t motion)
     return (int)(surface_map_count(s) - motion);
 }
 
-/* One map that both surfaces have is found by surface_common_motion; so there are two of one, or
- * three of both. */
+/* Two maps at least move alike or cancel: one of each surface, which need not be given in the same
+ * words, or two of one. */
 bool frames_may_set_aside(const collection *all, const candidate_pair *p)
 {
     if (all->slip_most < 0 || !all->may_halve) return false;
     const surface *a = tree_surface(p->side[0]->tree), *b = tree_surface(p->side[1]->tree);
     const size_t motion = surface_common_motion(a, b);
     const int m = own_maps(a, motion), n = own_maps(b, motion);
-    return m >= 0 && n >= 0 && (m >= 2 || n >= 2);
+    return m >= 0 && n >= 0 && m + n >= 2;
 }
 
 imp_code frames_set_aside(collection *all, frame_list *frames, size_t k, double *slip,

@@ -160,7 +160,9 @@ static twins draw_twins(uint64_t *random)
              random_between(random, 0.61, 1));
     const line l = draw_line(random);
     const double rate = 3 * part(random), share = part(random), way = part(random);
-    const word both = turn_about(random, &l, rate), one = turn_about(random, &l, share * rate),
+    const double most = random_power(random, -40, -3);
+    const word both = turn_about(random, &l, rate), alike = turn_about(random, &l, rate + most),
+               one = turn_about(random, &l, share * rate),
                other = turn_about(random, &l, rate - share * rate),
                back = turn_about(random, &l, -rate), slide = shift_along(&l, way),
                off = shift_along(&l, -way), own = draw_word(random, &l);
@@ -170,6 +172,7 @@ static twins draw_twins(uint64_t *random)
                                            {{&own, &one, &other}, {&both}},
                                            {{&one, &slide, &other}, {&off, &both, &slide}},
                                            {{&both, &slide, &back}, {&own}},
+                                           {{&both}, {&alike}},
                                            {{&slide, &own, &off}, {&own}},
                                            {{&one, &own, &other}, {&both, &own}}};
     const size_t form = random_bits(random) % (sizeof forms / sizeof *forms);
@@ -368,6 +371,34 @@ START_TEST(answers_are_those_of_the_surfaces_under_all_maps)
 }
 END_TEST
 
+/* One motion, given by other numbers, other parameters or another type. */
+START_TEST(surfaces_carried_by_one_motion_in_other_words_are_told_apart_at_once)
+{
+    static const char *const words[] = {"rotate axis=2,4,6 rate=7",
+                                        "rotate axis=-1,-2,-3 rate=-7",
+                                        "rotate axis=1,2,3 angle=0,7",
+                                        "rotate axis=1,2,3 rate=7 center=1,2,3",
+                                        "rotate axis=1,2,3 times=0,1 angles=0,7",
+                                        "motion-formula axis=1,2,3 angle=7*t",
+                                        "screw axis=1,2,3 pitch=0 rate=7"};
+    for (size_t n = 0; n < sizeof words / sizeof *words; ++n) {
+        char b[TEXT];
+        snprintf(b, sizeof b, "box center=1.001,0,0 ! %s", words[n]);
+        imp_scene *scene = scene_of("box ! rotate axis=1,2,3 rate=7", b);
+        imp_options options = imp_options_default(scene);
+        imp_result r = {.struct_size = sizeof r};
+        imp_error error;
+        options.gamma = 1e-4;
+        options.max_pairs = 100;
+        ck_assert_msg(imp_scene_solve(scene, &options, &r, &error) == IMP_SUCCESS, "%s",
+                      error.text);
+        ck_assert_msg(r.verdict == IMP_VERDICT_CLEAR, "%s: %llu pairs", b,
+                      (unsigned long long)r.stats.pairs);
+        imp_scene_free(scene);
+    }
+}
+END_TEST
+
 /* --- Memory ----------------------------------------------------------------------------------- */
 
 START_TEST(a_query_that_sets_maps_aside_and_runs_out_of_memory_can_go_on)
@@ -383,12 +414,14 @@ END_TEST
 
 int main(void)
 {
-    const TTest *const tests[] = {maps_that_are_exchanged_move_points_no_farther_than_is_said,
-                                  surfaces_without_maps_set_aside_are_as_far_from_each_other,
-                                  maps_that_differ_by_more_than_is_allowed_are_not_set_aside,
-                                  parts_of_time_are_looked_at_only_where_they_suffice,
-                                  answers_are_those_of_the_surfaces_under_all_maps,
-                                  a_query_that_sets_maps_aside_and_runs_out_of_memory_can_go_on};
+    const TTest *const tests[] = {
+        maps_that_are_exchanged_move_points_no_farther_than_is_said,
+        surfaces_without_maps_set_aside_are_as_far_from_each_other,
+        maps_that_differ_by_more_than_is_allowed_are_not_set_aside,
+        parts_of_time_are_looked_at_only_where_they_suffice,
+        answers_are_those_of_the_surfaces_under_all_maps,
+        surfaces_carried_by_one_motion_in_other_words_are_told_apart_at_once,
+        a_query_that_sets_maps_aside_and_runs_out_of_memory_can_go_on};
     return suite_main_with("aside", tests, sizeof tests / sizeof tests[0], open_registry,
                            close_registry);
 }

@@ -401,6 +401,13 @@ const everyday_family everyday_families[] = {
     {"piston in a bore, both carried by turns of one sum", CYLINDER("1", "3", "0,0,0"),
      TURN("1,0,0", "0.5") "," TURN("1,0,0", "0.2"), CAN("~1", "0.6", "0,0,0"),
      MOVE("0,0,0.5") "," TURN("1,0,0", "0.7"), BOND_NONE, 0, false, FIVE, 10, "", ""},
+    /* carried by one motion in other words */
+    {"boxes carried by one turn, its axis and rate negated", BOX("1,1,1", "0,0,0"),
+     TURN("1,2,3", "7"), BOX("1,1,1", "@1,0,0"), TURN("-1,-2,-3", "-7"), BOND_NONE, 0, false,
+     "1235", 10, "", ""},
+    {"can carried in a bore, about another point of the line", CYLINDER("1", "3", "0,0,0"),
+     TURN_AT("1,2,3", "7", "3,0,0"), CAN("~1", "0.6", "0,0,0"), TURN_AT("2,4,6", "7", "4,2,3"),
+     BOND_NONE, 0, false, "1235", 10, "", ""},
     /* by formula */
     {"piston on a crank", CYLINDER("0.5", "3", "0,0,1"), PLACE, CAN("~0.5", "0.6", "0,0,0"),
      CRANK "," PLACE, BOND_NONE, 0, false, FIVE, 50, "", ""},
