@@ -22,6 +22,13 @@ static uint64_t hash_bytes(uint64_t hash, const void *bytes, size_t count)
     return hash;
 }
 
+/* Eight bytes at once; what their product gathers in its upper half reaches the lower. */
+static uint64_t hash_word(uint64_t hash, uint64_t word)
+{
+    hash = (hash ^ word) * UINT64_C(0x9e3779b97f4a7c15);
+    return hash ^ hash >> 32;
+}
+
 static uint64_t hash_text(uint64_t hash, const char *text)
 {
     return hash_bytes(hash, text, strlen(text));
@@ -33,11 +40,13 @@ static uint64_t hash_json(uint64_t hash, const json_t *json)
     size_t i;
     const char *key;
     json_t *item;
-    hash = hash_bytes(hash, &type, sizeof type);
+    hash = hash_word(hash, (uint64_t)type);
     if (json_is_string(json)) return hash_text(hash, json_string_value(json));
     if (json_is_number(json)) {
         const double value = json_number_value(json);
-        return hash_bytes(hash, &value, sizeof value);
+        uint64_t word;
+        memcpy(&word, &value, sizeof word);
+        return hash_word(hash, word);
     }
     json_array_foreach(json, i, item) hash = hash_json(hash, item);
     uint64_t members = 0; /* a sum, since their order does not matter */
@@ -85,9 +94,11 @@ static bool is_kept(imp_type_kind kind, const json_t *from)
 
 enum { CAPACITY_FIRST = 16 };
 
-static uint64_t hash_of(imp_type_kind kind, const json_t *from)
+instance_key instance_key_of(imp_type_kind kind, const json_t *from)
 {
-    return hash_json(UINT64_C(0xcbf29ce484222325) + (uint64_t)kind, from);
+    instance_key key = {.kind = kind, .is_kept = is_kept(kind, from)};
+    if (key.is_kept) key.hash = hash_json(UINT64_C(0xcbf29ce484222325) + (uint64_t)kind, from);
+    return key;
 }
 
 static imp_type_kind kind_of(const shared_instance *p)
@@ -107,11 +118,11 @@ static instance_entry *find(const instance_table *t, uint64_t hash, imp_type_kin
     }
 }
 
-shared_instance *instance_table_find(const instance_table *t, imp_type_kind kind,
+shared_instance *instance_table_find(const instance_table *t, const instance_key *key,
                                      const json_t *from)
 {
-    if (t->count == 0 || !is_kept(kind, from)) return NULL;
-    return find(t, hash_of(kind, from), kind, from)->made;
+    if (t->count == 0 || !key->is_kept) return NULL;
+    return find(t, key->hash, key->kind, from)->made;
 }
 
 /* At most half full. */
@@ -131,14 +142,14 @@ static bool reserve(instance_table *t)
     return true;
 }
 
-bool instance_table_add(instance_table *t, imp_type_kind kind, json_t *from, shared_instance *made)
+bool instance_table_add(instance_table *t, const instance_key *key, json_t *from,
+                        shared_instance *made)
 {
-    if (!is_kept(kind, from)) return true;
+    if (!key->is_kept) return true;
     if (!reserve(t)) return false;
-    const uint64_t hash = hash_of(kind, from);
-    instance_entry *e = find(t, hash, kind, from);
+    instance_entry *e = find(t, key->hash, key->kind, from);
     if (e->made != NULL) return true;
-    *e = (instance_entry){hash, json_incref(from), instance_hold(made)};
+    *e = (instance_entry){key->hash, json_incref(from), instance_hold(made)};
     t->count += 1;
     return true;
 }

@@ -25,13 +25,23 @@ typedef struct instance_table {
     size_t count, capacity;
 } instance_table; /* begins as {0} */
 
+/* What a description is found by, computed once. */
+typedef struct instance_key {
+    imp_type_kind kind;
+    bool is_kept; /* instances of such descriptions are; else the hash is not set */
+    uint64_t hash;
+} instance_key;
+
+instance_key instance_key_of(imp_type_kind kind, const json_t *from);
+
 /* Returns the instance that was made from an equal description, or NULL. The table still owns
  * it. */
-shared_instance *instance_table_find(const instance_table *t, imp_type_kind kind,
+shared_instance *instance_table_find(const instance_table *t, const instance_key *key,
                                      const json_t *from);
 
 /* Keeps an instance, if it is of a kind that is kept. False: no memory. */
-bool instance_table_add(instance_table *t, imp_type_kind kind, json_t *from, shared_instance *made);
+bool instance_table_add(instance_table *t, const instance_key *key, json_t *from,
+                        shared_instance *made);
 
 void instance_table_clear(instance_table *t);
 

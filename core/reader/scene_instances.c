@@ -115,7 +115,8 @@ imp_code scene_instances_make(scene_instances *p, imp_type_kind kind, json_t *ob
 {
     const json_t *clock = json_object_get(object, "clock");
     const bool is_own = json_is_array(clock); /* equal objects have parameters that differ */
-    shared_instance *known = is_own ? NULL : instance_table_find(&p->made, kind, object);
+    const instance_key key = instance_key_of(kind, object);
+    shared_instance *known = is_own ? NULL : instance_table_find(&p->made, &key, object);
     if (known != NULL) return *made = instance_hold(known), IMP_SUCCESS;
     imp_code code = scene_build_shared(&p->source, kind, object, at, made, p->error);
     if (code == IMP_SUCCESS && clock != NULL) {
@@ -125,7 +126,7 @@ imp_code scene_instances_make(scene_instances *p, imp_type_kind kind, json_t *ob
             *made = NULL;
         }
     }
-    if (code != IMP_SUCCESS || is_own || instance_table_add(&p->made, kind, object, *made))
+    if (code != IMP_SUCCESS || is_own || instance_table_add(&p->made, &key, object, *made))
         return code;
     instance_release(*made);
     *made = NULL;
