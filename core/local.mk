@@ -66,7 +66,7 @@ core_surface = \
     core/surface/surface_rate.c core/surface/surface_slip.c \
     core/surface/time_model.h core/surface/surface_shift.c core/surface/surface_shift.h \
     core/surface/surface_spread.c core/surface/surface_spread.h \
-    core/surface/surface_symmetry.c
+    core/surface/surface_symmetry.c core/surface/surface_tube.c
 
 core_tree = \
     core/tree/bound_audit.c core/tree/bound_audit.h \
@@ -208,6 +208,7 @@ core_witness = \
     core/witness/net_eval.c core/witness/net_eval.h \
     core/witness/newton.c core/witness/newton.h \
     core/witness/search.c core/witness/search.h \
+    core/witness/tube_search.c core/witness/tube_search.h \
     core/witness/wide_search.c core/witness/wide_search.h \
     core/witness/witness.c core/witness/witness.h
 
@@ -256,7 +257,7 @@ core_solver = \
     core/solver/pair_note.h \
     core/solver/pair_spread.c core/solver/pair_spread.h \
     core/solver/pair_step.c core/solver/pair_step.h \
-    core/solver/pair_test.c core/solver/pair_test.h \
+    core/solver/pair_test.c core/solver/pair_test.h core/solver/pair_tubes.c core/solver/pair_tubes.h \
     core/solver/piece_walk.c core/solver/piece_walk.h \
     core/solver/query.c \
     core/solver/query_answer.c \

@@ -41,6 +41,7 @@ check_suites = \
     tests/unit/test_slip_planes \
     tests/unit/test_aside \
     tests/unit/test_held \
+    tests/unit/test_tubes \
     tests/unit/test_glances \
     tests/unit/test_screw_slips \
     tests/unit/test_half_planes \
@@ -363,6 +364,8 @@ check_LTLIBRARIES = \
     tests/plugins/liar_distance.la \
     tests/plugins/liar_distance_remainder.la \
     tests/plugins/liar_symmetry.la \
+    tests/plugins/tube_of_v.la \
+    tests/plugins/liar_tube.la \
     tests/plugins/liar_errno.la \
     tests/plugins/liar_error.la \
     tests/plugins/liar_exports.la \
@@ -391,6 +394,7 @@ check_LTLIBRARIES = \
     tests/plugins/liar_truthful.la \
     tests/plugins/liar_truthful_distance.la \
     tests/plugins/liar_truthful_symmetry.la \
+    tests/plugins/liar_truthful_tube.la \
     tests/plugins/liar_truthful_screw.la \
     tests/plugins/liar_screw_hand.la \
     tests/plugins/liar_screw_crack.la \
@@ -480,6 +484,8 @@ tests_plugins_liar_crash_la_LDFLAGS = $(test_plugin_ldflags)
 tests_plugins_liar_distance_la_LDFLAGS = $(test_plugin_ldflags)
 tests_plugins_liar_distance_remainder_la_LDFLAGS = $(test_plugin_ldflags)
 tests_plugins_liar_symmetry_la_LDFLAGS = $(test_plugin_ldflags)
+tests_plugins_tube_of_v_la_LDFLAGS = $(test_plugin_ldflags)
+tests_plugins_liar_tube_la_LDFLAGS = $(test_plugin_ldflags)
 tests_plugins_liar_errno_la_LDFLAGS = $(test_plugin_ldflags)
 tests_plugins_liar_error_la_LDFLAGS = $(test_plugin_ldflags)
 tests_plugins_liar_exports_la_LDFLAGS = $(test_plugin_ldflags)
@@ -508,6 +514,7 @@ tests_plugins_liar_time_la_LDFLAGS = $(test_plugin_ldflags)
 tests_plugins_liar_truthful_la_LDFLAGS = $(test_plugin_ldflags)
 tests_plugins_liar_truthful_distance_la_LDFLAGS = $(test_plugin_ldflags)
 tests_plugins_liar_truthful_symmetry_la_LDFLAGS = $(test_plugin_ldflags)
+tests_plugins_liar_truthful_tube_la_LDFLAGS = $(test_plugin_ldflags)
 tests_plugins_liar_truthful_screw_la_LDFLAGS = $(test_plugin_ldflags)
 tests_plugins_liar_screw_hand_la_LDFLAGS = $(test_plugin_ldflags)
 tests_plugins_liar_screw_crack_la_LDFLAGS = $(test_plugin_ldflags)

@@ -75,6 +75,7 @@ tools_check = \
     tools/check/subject_text.c \
     tools/check/heap_growth.c tools/check/heap_growth.h \
     tools/check/table.c tools/check/table.h \
+    tools/check/tubes.c tools/check/tubes.h \
     tools/check/values.c tools/check/values.h \
     tools/check/verb_check.c
 

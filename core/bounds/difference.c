@@ -116,8 +116,10 @@ IMP_QUAD_INLINE imp_quad take_posed_terms(const node *n, difference *r, slice *s
 IMP_QUAD_INLINE imp_quad remainders(const node *a, const node *b, difference *r, moved *ma,
                                     moved *mb)
 {
-    imp_quad ea = triple_load(a->e), eb = triple_load(b->e);
+    imp_quad ea = triple_load(a->ball > 0 ? a->posed_e : a->e);
+    imp_quad eb = triple_load(b->ball > 0 ? b->posed_e : b->e);
     r->posed = 0;
+    r->ball = a->ball > 0 || b->ball > 0 ? sum_upper(a->ball, b->ball) : 0;
     if (a->pose == NULL && b->pose == NULL) return ea + eb;
     if (a->pose != NULL)
         ea = take_posed_terms(a, r, &r->a, ma);

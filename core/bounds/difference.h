@@ -30,6 +30,7 @@ typedef struct difference {
     double edge[2][3][4], swing[2][3][4]; /* of posed nodes; slack has the rest */
     double magnitude[4];                  /* >= sum of abs of the coefficients above */
     double squares;    /* 0: neither slice has a square of s_u or s_v; else not 0, or NaN */
+    double ball;       /* B - A is the sum of x above and of any vector no longer than this */
     double mid, half;  /* of the window; half is rounded up */
     double share;      /* GJK stops at an axis that shows this part of the widest gap */
     double focus;      /* the w that axes are chosen for; -1: the start of the window */

@@ -272,9 +272,10 @@ static bool slack_and_length(const difference *r, const frame *f, const dividing
     if (!(size < 0x1p400)) return false;
     for (int i = 0; i < 2; ++i)
         if (!(far[i] > 0x1p-500 && far[i] < 0x1p150)) return false;
+    *length_upper = padded_upper(sqrt(vec3_dot(f->n, f->n) + 2 * tilt + lean * lean), ROOT_PAD);
+    slack += *length_upper * r->ball;
     *slack_upper =
         slack + (slack * (SUM_PAD * UNIT_ROUNDOFF) + size * (DIVIDING_ROUNDING * UNIT_ROUNDOFF));
-    *length_upper = padded_upper(sqrt(vec3_dot(f->n, f->n) + 2 * tilt + lean * lean), ROOT_PAD);
     return true;
 }
 

@@ -225,6 +225,7 @@ IMP_QUAD_INLINE bool cut_along_bundle(const difference *r, bundle *n, double gam
     imp_quad slack = weighted(n, r->slack) + size * imp_quad_all(AXIS_ROUNDING * UNIT_ROUNDOFF) +
                      imp_quad_all(QUADRATIC_UNDERFLOW);
     if (r->way_count > 0) slack += along_ways(r, n);
+    if (r->ball > 0) slack += limit_upper(n, r->ball);
     const imp_quad_mask sane = (longest > imp_quad_all(0x1p-400)) &
                                (longest < imp_quad_all(0x1p400)) & (size < imp_quad_all(0x1p400));
     const imp_quad limit = imp_quad_pick(sane, limit_upper(n, gamma_clear), imp_quad_all(INFINITY));

@@ -166,9 +166,10 @@ static bool slack_and_length(const difference *r, const frame *f, const local_sl
         lean += mu * vec3_norm(f->t[i]);
     }
     if (!(size < 0x1p400)) return false;
+    *length_upper = padded_upper(sqrt(vec3_dot(f->n, f->n) + 2 * tilt + lean * lean), LENGTH_PAD);
+    slack += *length_upper * r->ball;
     *slack_upper =
         slack + (slack * (SLACK_PAD * UNIT_ROUNDOFF) + size * (FIELD_ROUNDING * UNIT_ROUNDOFF));
-    *length_upper = padded_upper(sqrt(vec3_dot(f->n, f->n) + 2 * tilt + lean * lean), LENGTH_PAD);
     return true;
 }
 

@@ -29,7 +29,7 @@ static bool are_flat(const node *a, const node *b)
     for (int k = 0; k < 2; ++k) {
         const quadratic3 *f = &both[k]->f;
         for (int i = 0; i < 3; ++i)
-            bent += both[k]->e[i] + fabs(f->quu[i]) + fabs(f->quv[i]) + fabs(f->qvv[i]);
+            bent += node_blur(both[k], i) + fabs(f->quu[i]) + fabs(f->quv[i]) + fabs(f->qvv[i]);
         extent += both[k]->extent[PARAMETER_U] + both[k]->extent[PARAMETER_V];
     }
     return TUNING_FLAT * bent < extent;

@@ -81,6 +81,8 @@ TUNING_INTEGER(TUNING_WIDE_SHARE, 1);
  * this part of the times that are searched: surfaces that cross, or touch all along a curve, hold
  * it. Without this, `bench tori` takes 2.6 times the instructions. */
 TUNING_NUMBER(TUNING_WIDE_LATER, 0x1p-20);
+/* Pairs of tubes that are expanded of a candidate pair before v is cut, too (pair_tubes.h). */
+TUNING_INTEGER(TUNING_TUBES_MOST, 512);
 /* Most steps in time of one search. */
 TUNING_INTEGER(TUNING_MARCH_STEPS, 12);
 /* Nearest points are refined only roughly while the gap is above this times the gap sought. */

@@ -18,6 +18,7 @@ OFFERS(surface, piece)
 OFFERS(surface, distance)
 OFFERS(surface, symmetry)
 OFFERS(surface, renew)
+OFFERS(surface, tube)
 OFFERS(map, apply)
 OFFERS(map, net)
 OFFERS(map, rigid)
@@ -48,6 +49,7 @@ const capability_row capabilities[CAPABILITIES] = {
                             NULL},
     [CAPABILITY_PARTS] = {"parts", NULL, map_offers_parts, CAPABILITY_CORE, NULL},
     [CAPABILITY_RENEW] = {"renew", surface_offers_renew, map_offers_renew, CAPABILITY_CORE, NULL},
+    [CAPABILITY_TUBE] = {"tube", surface_offers_tube, NULL, CAPABILITY_CORE, NULL},
 };
 
 bool surface_type_offers(const imp_surface_type *type, capability which)

@@ -25,6 +25,7 @@ typedef enum capability {
     CAPABILITY_FORMULA,
     CAPABILITY_PARTS,
     CAPABILITY_RENEW,
+    CAPABILITY_TUBE,
     CAPABILITIES
 } capability;
 

@@ -170,7 +170,7 @@ typedef struct imp_type_info {
                                  "order-2": the callback include (surfaces) or apply (maps);
                                  the callbacks "net", "pieces", "rigid", "span", "distance",
                                  "symmetry"; "formula": the text or callback; "parts": of a map;
-                                 "renew" */
+                                 "renew"; "tube": of a surface */
     const char *formula; /* as in imp_surface_type: a text with the parameters' names; or NULL */
 } imp_type_info;
 

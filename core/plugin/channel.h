@@ -38,6 +38,7 @@ typedef enum channel_request {
     REQUEST_POSE, /* of a map over the times of in[3] */
     REQUEST_DISTANCE,
     REQUEST_SYMMETRY,
+    REQUEST_TUBE,
     REQUEST_FORMULA, /* from byte number n on: bytes, and n of the whole text */
     REQUEST_DESTROY
 } channel_request;
@@ -87,6 +88,7 @@ typedef struct channel_work {
     imp_net net; /* a map: also what it is given */
     imp_pose pose;
     imp_symmetry symmetry;
+    imp_tube tube;
 } channel_work;
 
 typedef struct channel {

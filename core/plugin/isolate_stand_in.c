@@ -136,6 +136,19 @@ static imp_status symmetry_of(const void *self, imp_symmetry *symmetry)
     return status;
 }
 
+static imp_status tube_of(const void *self, const imp_region *region, imp_tube *tube)
+{
+    isolated_piece *i = stand_in_of(self);
+    imp_status status = enter(i);
+    if (status != IMP_STATUS_OK) return status;
+    work_of(i)->region = *region;
+    work_of(i)->tube = *tube;
+    status = request(i, REQUEST_TUBE);
+    *tube = work_of(i)->tube;
+    leave(i);
+    return status;
+}
+
 /* Passes the next part of a formula on. *at counts the bytes passed on; *length is that of all. */
 static imp_status formula_part(isolated_piece *i, const imp_text_sink *to, size_t *at,
                                size_t *length)
@@ -228,7 +241,7 @@ static imp_status map_rigid_of(const void *self, const imp_model *t, imp_pose *p
 }
 
 /* renew is not offered: an instance in another process is created anew. */
-_Static_assert(CAPABILITIES == 11, "stand-ins offer what their types do");
+_Static_assert(CAPABILITIES == 12, "stand-ins offer what their types do");
 
 isolated *isolate_surface(worker_pool *pool, const imp_surface_type *type)
 {
@@ -253,7 +266,8 @@ isolated *isolate_surface(worker_pool *pool, const imp_surface_type *type)
         .distance = IMP_OFFERS(type, distance) ? distance_of : NULL,
         .symmetry = IMP_OFFERS(type, symmetry) ? symmetry_of : NULL,
         .formula = IMP_OFFERS(type, formula) ? type->formula : NULL,
-        .write_formula = IMP_OFFERS(type, write_formula) ? write_formula_of : NULL};
+        .write_formula = IMP_OFFERS(type, write_formula) ? write_formula_of : NULL,
+        .tube = IMP_OFFERS(type, tube) ? tube_of : NULL};
     return i;
 }
 

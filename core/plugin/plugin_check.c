@@ -156,11 +156,11 @@ static imp_code check_view(const type_view *view, const char *null_callback, imp
         return place_error(&type, error, IMP_ERROR_PLUGIN, "%s is %s; must be a line of text",
                            wrong->name, shown(wrong->text).at);
     if (null_callback != NULL)
-        return place_error(
-            &type, error, IMP_ERROR_PLUGIN,
-            "%s is NULL; only include, apply, net, rigid, span, distance, symmetry, formula and "
-            "write_formula may be",
-            null_callback);
+        return place_error(&type, error, IMP_ERROR_PLUGIN,
+                           "%s is NULL; only include, apply, net, rigid, span, distance, symmetry, "
+                           "tube, formula and "
+                           "write_formula may be",
+                           null_callback);
     const imp_code code = check_table(&view->table, &type, error);
     return code == IMP_SUCCESS && view->parts != NULL ? check_parts(view, &type, error) : code;
 }

@@ -112,6 +112,8 @@ static imp_status obey_surface(worker_server *s, const imp_surface_type *type)
         return type->distance(w->self, w->in, worker_fills(s, 0, w->out, sizeof *w->out));
     case REQUEST_SYMMETRY:
         return type->symmetry(w->self, worker_fills(s, 0, &w->symmetry, sizeof w->symmetry));
+    case REQUEST_TUBE:
+        return type->tube(w->self, &w->region, worker_fills(s, 0, &w->tube, sizeof w->tube));
     default:
         return type->include(w->self, &w->region, worker_fills(s, 0, w->out, sizeof w->out));
     }

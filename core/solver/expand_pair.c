@@ -9,9 +9,11 @@
 #include "core/solver/explanation.h"
 #include "core/solver/pair_note.h"
 #include "core/solver/pair_step.h"
+#include "core/solver/pair_tubes.h"
 #include "core/solver/split_pair.h"
 #include "core/witness/contact_estimate.h"
 #include "core/witness/newton.h"
+#include "core/witness/tube_search.h"
 #include "core/witness/wide_search.h"
 
 static resolution resolved(const impact *im) { return resolution_of(im->gamma, im->gamma_clear); }
@@ -23,6 +25,7 @@ static imp_code seek_witness(const impact *im, const pair *p, witness *seen, imp
     const node *const nodes[2] = {p->a, p->b};
     const double t = p->window.lo, room = resolved(im).room, part = 0.25 * room / im->gamma;
     double y[NEWTON_UNKNOWNS];
+    if (pair_has_tubes(p)) return witness_seek_in_tubes(nodes, t, im->gamma, seen, error);
     if (!strategy_has_close_nets(p->a, p->b, room))
         return witness_seek(nodes, t, im->gamma, seen, error);
     net_nearest(nodes, p->axis, t, TUNING_WITNESS_NEAR * im->gamma,
@@ -131,12 +134,13 @@ static bool witness_is_likely(const impact *im, const pair *p, const distance_ou
 /* Chooses a cut: first of the side that a distance chose; then in time if the motion bends much
  * within the window; else by spread. Where gamma is large and gamma - gamma_clear small, windows of
  * contact are long, and bending motion, not extent, makes their starts inexact. */
-static cut choose_cut(const impact *im, const pair *p, const distance_outcome *distances)
+static cut choose_cut(const impact *im, const pair *p, const distance_outcome *distances,
+                      double gamma)
 {
     const double scale = resolved(im).scale;
     const cut alone = pair_cut_alone(p, distances, scale);
     if (alone.side >= 0) return alone;
-    const cut bend = scale < im->gamma ? cut_by_bend(p, scale) : CUT_NONE;
+    const cut bend = scale < gamma ? cut_by_bend(p, scale) : CUT_NONE;
     if (bend.side >= 0) return bend;
     return cut_by_spread(p, scale, strategy_has_both_hulls(p->a, p->b));
 }
@@ -147,13 +151,16 @@ static imp_code choose_cut_after_free(impact *im, pair *p, const distance_outcom
                                       cut *c, imp_error *error)
 {
     imp_code code = IMP_SUCCESS;
+    double gamma = im->gamma;
     int half;
-    *c = choose_cut(im, p, distances);
+    if (p->tubes != TUBES_NONE) code = pair_tubes_take(im, p, &gamma, error);
+    *c = choose_cut(im, p, distances, gamma);
+    if (c->side < 0 && pair_tubes_open(p)) *c = choose_cut(im, p, distances, gamma);
     while (code == IMP_SUCCESS && cut_is_free(c, p, &half)) {
         bool some;
         code = cut_take(c, half, impact_candidates(im, p), p, &some, im->stats, error);
         if (code == IMP_SUCCESS) code = pair_test_ask_for_nets(im, p, &im->stats->bytes, error);
-        if (code == IMP_SUCCESS) *c = choose_cut(im, p, distances);
+        if (code == IMP_SUCCESS) *c = choose_cut(im, p, distances, gamma);
     }
     return code;
 }

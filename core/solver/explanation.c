@@ -18,6 +18,7 @@ static node twin_of(const node *n, bool exact)
 {
     node twin = {.surface = NULL};
     memcpy(&twin, n, offsetof(node, net));
+    twin.ball = n->ball;
     if (exact) {
         memset(twin.e, 0, sizeof twin.e);
         return twin;
@@ -47,7 +48,10 @@ static bool helps(double left, double before) { return left < 0 || left < 0.5 * 
 
 /* --- Remainders ------------------------------------------------------------------------------- */
 
-static double remainder_of(const node *n) { return n->e[0] + n->e[1] + n->e[2]; }
+static double remainder_of(const node *n)
+{
+    return node_blur(n, 0) + node_blur(n, 1) + node_blur(n, 2);
+}
 
 static imp_obstacle remainder_obstacle(const pair *p, int side)
 {

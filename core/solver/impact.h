@@ -48,6 +48,8 @@ typedef struct pair_trials {
     trial_rate turning; /* turning axes, in all tests except the roots' (separation.h) */
     trial_rate sliding; /* distances where axes separate nodes whose parents slid (distance.h) */
     uint32_t popped, next_wide; /* pairs without nets; the count that the next wide search awaits */
+    uint32_t tubes;             /* pairs of tubes that were popped (pair_tubes.h) */
+    bool are_open;              /* tubes of this candidate pair are opened */
     double start;               /* of the window, about half as many pairs before that count */
 } pair_trials;
 

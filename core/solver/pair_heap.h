@@ -15,6 +15,14 @@
  * pops in the same order. Each search chooses its keys: the time of impact uses the start of the
  * window (paper, eq. 5) and the squared distance of the centres at that time. */
 
+/* Whether a pair of surfaces that run around lines is searched along these (pair_tubes.h). */
+typedef enum pair_tubes_state {
+    TUBES_NONE,   /* no, and none of its halves */
+    TUBES_WHOLE,  /* of whole surfaces, which were not looked at for this yet */
+    TUBES_CLOSED, /* yes: its nodes are tubes, of which only u and t are cut */
+    TUBES_OPEN    /* not any more: v is cut, too */
+} pair_tubes_state;
+
 typedef struct pair {
     double key[2];      /* the least comes first; no NaN */
     uint64_t serial;    /* order of making */
@@ -30,6 +38,7 @@ typedef struct pair {
     bool slides;    /* a distance chose one node, of it or an ancestor, to be split alone */
     uint8_t step;   /* proof_step by which it was made of `proof`, a record (pair_note.h) */
     uint32_t proof; /* where a proof is kept */
+    uint8_t tubes;  /* pair_tubes_state */
 } pair;
 
 /* What is kept of a waiting pair beside its keys and serial number. */

@@ -92,6 +92,7 @@ static imp_code look_at_nodes(const pair *p, candidate_pair *both, const pair_qu
                         : IMP_SUCCESS;
     }
     if (!strategy_takes_distances(p->a, p->b, &signs, q->goal)) return IMP_SUCCESS;
+    if (p->a->ball > 0 || p->b->ball > 0) return IMP_SUCCESS; /* lines tell no distances */
     sides.seeks_contact = q->goal == GOAL_CONTACT;
     sides.seeks_start = q->goal == GOAL_CONTACT && signs.is_whole;
     const imp_code code = distance_cut_sides(&sides, q->limit, seen, error);
@@ -113,7 +114,7 @@ cut pair_cut_alone(const pair *p, const distance_outcome *seen, double scale)
 {
     if (seen->side < 0) return CUT_NONE;
     const node *n = seen->side == 0 ? p->a : p->b;
-    const bool matters = n->e[0] + n->e[1] + n->e[2] > scale;
+    const bool matters = node_blur(n, 0) + node_blur(n, 1) + node_blur(n, 2) > scale;
     return matters ? cut_alone(p, seen->side, seen->bend, scale) : CUT_NONE;
 }
 

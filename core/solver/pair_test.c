@@ -106,6 +106,7 @@ static imp_code test_roots(const impact *im, uint32_t index, pair_test *t, imp_e
     *t = (pair_test){.p = {.a = tree_root(both->side[0]->tree),
                            .b = tree_root(both->side[1]->tree),
                            .candidate_pair = index,
+                           .tubes = TUBES_WHOLE,
                            .proof = index}};
     t->p.window = window_common(im->window, pair_times(t->p.a, t->p.b));
     t->any_time = t->p.window.lo <= t->p.window.hi;

@@ -27,7 +27,7 @@ static double pair_curvature(const pair *p)
 
 double pair_remainder(const pair *p)
 {
-    double sum = 0;
+    double sum = -3 * (p->a->ball + p->b->ball);
     for (int i = 0; i < 3; ++i) sum += p->a->e[i] + p->b->e[i];
     return sum;
 }
@@ -128,11 +128,17 @@ static double gain_in_place(const node *n, parameter j, double bend, bool tangen
     return tangent ? TUNING_TANGENT_CUT * bend + TUNING_TANGENT_SLOPE * n->extent[j] : n->extent[j];
 }
 
+/* Tubes are cut along v, around them, once they are open, and before all else then. */
 static void consider_side(cut *best, const pair *p, int side, const double bend[3], const view *of)
 {
     const node *n = side_of(p, side);
-    for (parameter j = PARAMETER_U; j <= PARAMETER_V; ++j)
-        cut_consider(best, p, side, j, gain_in_place(n, j, bend[j], of->is_tangent));
+    cut_consider(best, p, side, PARAMETER_U,
+                 gain_in_place(n, PARAMETER_U, bend[PARAMETER_U], of->is_tangent));
+    if (!(n->ball > 0))
+        cut_consider(best, p, side, PARAMETER_V,
+                     gain_in_place(n, PARAMETER_V, bend[PARAMETER_V], of->is_tangent));
+    else if (p->tubes == TUBES_OPEN)
+        cut_consider(best, p, side, PARAMETER_V, INFINITY);
     cut_consider(best, p, side, PARAMETER_T, gain_in_time(p, n, bend[PARAMETER_T], of));
 }
 

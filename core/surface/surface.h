@@ -113,6 +113,7 @@ bool surface_undefined_instance(const surface *s, double lo, double hi, surface_
 #define SURFACE_NOT_CLOSED 1021
 #define SURFACE_BAD_SPAN 1017
 #define SURFACE_BAD_FORMULA 1018
+#define SURFACE_BAD_TUBE 1022
 #define SURFACE_LATE 1019 /* an isolated instance had not answered when the time of all was over */
 
 /* Returns the text for a status other than IMP_STATUS_OK, to follow "type 'x' ...: ". */
@@ -343,6 +344,14 @@ imp_status surface_include_inner(const surface *s, const imp_region *region, siz
 
 /* Computes the inclusion of the type alone, under none of the maps. */
 imp_status surface_include_bare(const surface *s, const imp_region *region, imp_model model[3]);
+
+/* Whether surface_tube can be called: the type offers tubes, and all maps are rigid in exact
+ * arithmetic, so that they keep the distances of a line's image from that of the surface. */
+bool surface_offers_tube(const surface *s);
+
+/* Finds the line in the middle of the type alone, under none of the maps (imp_surface_type.tube).
+ * IMP_STATUS_UNBOUNDED: there is none over the region. */
+imp_status surface_tube(const surface *s, const imp_region *region, imp_tube *tube);
 
 /* Applies the maps to a set of points whose coordinates have the models `model` over the region,
  * and replaces these by the models of its image. If u or v only numbers the points of a set, any

@@ -53,6 +53,10 @@ const char *surface_status_text(imp_status status)
                "rotation takes another one; impinge check --only symmetry tells more";
     case SURFACE_BAD_FORMULA:
         return "printed a formula that is empty, or has other than printable characters";
+    case SURFACE_BAD_TUBE:
+        return "the line in the middle of its tube depends on v, or has a number that is infinite "
+               "or NaN, a negative remainder or rate, or an inverted range, or the radius is "
+               "negative, infinite or NaN";
     case SURFACE_BAD_SPAN:
         return "the span of its times is empty or NaN";
     case SURFACE_CRASHED:

@@ -103,7 +103,7 @@ IMP_QUAD_INLINE imp_quad third_order(const posed_terms *x, const double s[3], im
 /* Roundings of the extent of edges and boxes along an axis: dots 3, sums 9; the dot with x -
  * polynomial: 3 and 1. */
 enum { OFF_ROUNDING = 8 };
-PAD_COVERS(32, 3 + 9);
+PAD_COVERS(32, 3 + 10);
 
 /* Whether x lies, beyond rounding, outside the parallelepiped of a posed node's remainder along one
  * of the body's axes at that time. */
@@ -127,7 +127,8 @@ IMP_QUAD_INLINE bool outside_edges(const node *n, const double p[3], const doubl
             triple_load(n->pose->turn[0][j]) +
             (triple_load(n->pose->turn[1][j]) + triple_load(n->pose->turn[2][j]) * t) * t;
         imp_quad along = imp_quad_all(0);
-        double way = 0, reach = 0;
+        double way = 0;
+        double reach = n->ball * sqrt(axis[0] * axis[0] + axis[1] * axis[1] + axis[2] * axis[2]);
         for (int i = 0; i < 3; ++i) {
             along += imp_quad_all(axis[i]) * terms.edge[i];
             way += axis[i] * off[i];

@@ -137,4 +137,15 @@ IMP_QUAD_INLINE void lanes_take(node *n, const model_lanes *m)
     n->bounded = true;
 }
 
+/* Adds a ball around the line that the node's models follow. */
+IMP_QUAD_INLINE void lanes_add_ball(node *n, double ball)
+{
+    n->ball = ball;
+    for (int i = 0; i < 3; ++i) {
+        n->e[i] = sum_upper(n->e[i], ball);
+        n->lo[i] = difference_lower(n->lo[i], ball);
+        n->hi[i] = sum_upper(n->hi[i], ball);
+    }
+}
+
 #endif

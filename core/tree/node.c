@@ -62,11 +62,13 @@ static imp_code audit(tree *t, node *n, tree_growth *growth, imp_error *error)
 /* Decides once per surface whether nodes take their models from their nets, so that models depend
  * on the region alone, not on earlier calls. Such models are worth the nets only where patches
  * bend. */
-static bool follows_net(const node *n)
+static node_source follows(const node *n)
 {
-    if (!node_is_part(n)) return false;
-    if (node_is_part(n->parent)) return n->parent->follows_net;
-    return n->many == NULL && node_bends(n->parent) && surface_offers_net(n->surface);
+    if (!node_is_part(n)) return FOLLOWS_SURFACE;
+    if (node_is_part(n->parent)) return n->parent->follows;
+    if (n->along == NODE_AS_TUBE) return FOLLOWS_LINE;
+    const bool bends = n->many == NULL && node_bends(n->parent);
+    return bends && surface_offers_net(n->surface) ? FOLLOWS_NET : FOLLOWS_SURFACE;
 }
 
 /* Initialises every field that filling does not set, and the bounds to which rates are added. */
@@ -84,7 +86,7 @@ static void node_begin(const tree *t, const node_place *place, node *n)
     n->parent = place->parent;
     n->along = (unsigned char)place->along;
     n->side = (unsigned char)place->side;
-    n->follows_net = t->plan.kind == TREE_MODELS && follows_net(n);
+    if (t->plan.kind == TREE_MODELS) n->follows = (unsigned char)follows(n);
 }
 
 imp_code node_fill(tree *t, const node_place *place, node *n, tree_growth *growth, imp_error *error)
@@ -93,7 +95,7 @@ imp_code node_fill(tree *t, const node_place *place, node *n, tree_growth *growt
     node_begin(t, place, n);
     if (t->plan.kind == TREE_MODELS && n->parent != NULL) code = posing_begin(t, n, growth, error);
     bool done = false;
-    if (code == IMP_SUCCESS && n->follows_net && n->shape == NULL)
+    if (code == IMP_SUCCESS && n->follows == FOLLOWS_NET && n->shape == NULL)
         code = node_fill_from_net(t, n, &done, growth, error);
     if (code == IMP_SUCCESS && !done) code = node_bounds_find(t, n, error);
     if (code == IMP_SUCCESS && t->plan.audit != NULL && n->many == NULL)
@@ -197,6 +199,23 @@ imp_code node_child(tree *t, node *parent, parameter j, int side, node **child, 
         if (code != IMP_SUCCESS) return code;
     }
     *child = there;
+    return IMP_SUCCESS;
+}
+
+imp_code node_tube(tree *t, node *root, node **tube, tree_growth *growth, imp_error *error)
+{
+    assert(root->parent == NULL && root->many == NULL);
+    *tube = half_of(root, NODE_AS_TUBE, 0, false);
+    if (*tube != NULL) return IMP_SUCCESS;
+    node *n = node_reserve(t, growth);
+    if (n == NULL) return error_set_memory(error);
+    const double *lo = root->region.lo, *hi = root->region.hi;
+    node_place all = node_place_of_surface(root->surface, lo[PARAMETER_T], hi[PARAMETER_T]);
+    all.parent = root, all.along = NODE_AS_TUBE;
+    const imp_code code = node_fill(t, &all, n, growth, error);
+    if (code != IMP_SUCCESS) return node_give_back(t, n), code;
+    *tube = node_publish(t, n);
+    growth->nodes += *tube == n;
     return IMP_SUCCESS;
 }
 

@@ -36,6 +36,13 @@ typedef enum tree_kind {
     TREE_KINDS
 } tree_kind;
 
+/* What models of a node are made from. */
+typedef enum node_source {
+    FOLLOWS_SURFACE,
+    FOLLOWS_NET, /* its net, if that is bicubic (net_series.h) */
+    FOLLOWS_LINE /* the line in its middle, where it has all v (tree_internal.h) */
+} node_source;
+
 /* Coefficients of the three coordinates' polynomials in s = (p - c) / d. Vector instructions take
  * x, y, z at once (triple.h). */
 typedef struct quadratic3 {
@@ -57,19 +64,23 @@ typedef struct node {
     double time_remainder;      /* time's share in e where its rate is known, about; length */
     bool bounded;               /* f, e, lo, hi are all finite */
     bool is_bare;               /* only the region and `bounded`, which is true, are set above */
-    bool follows_net; /* its models are made from its net, if that is bicubic (net_series.h) */
-    unsigned char along, side;       /* which half of the parent it is: a parameter, 0 or 1 */
-    const surface *surface;          /* whose points are bounded: a piece, or the whole */
-    const cluster *many;             /* the pieces it bounds; NULL: no cluster */
-    struct node *parent;             /* NULL: it is the root */
-    struct node *sibling;            /* another half of the parent, or NULL */
-    _Atomic(const net *) net;        /* NULL: not made yet; &net_none: it has none */
-    struct shape *shape;             /* the shape that is moved rigidly, and */
-    struct span *span;               /* its poses (posing.h); NULL: not known */
+    unsigned char follows;      /* node_source: what its models are made from, where they can be */
+    unsigned char along, side;  /* which half of the parent it is: a parameter, 0 or 1 */
+    const surface *surface;     /* whose points are bounded: a piece, or the whole */
+    const cluster *many;        /* the pieces it bounds; NULL: no cluster */
+    struct node *parent;        /* NULL: it is the root */
+    struct node *sibling;       /* another half of the parent, or NULL */
+    _Atomic(const net *) net;   /* NULL: not made yet; &net_none: it has none */
+    struct shape *shape;        /* the shape that is moved rigidly, and */
+    struct span *span;          /* its poses (posing.h); NULL: not known */
     const struct shape_model *still; /* model of the shape; the node is its image under */
     const struct pose_lanes *pose;   /* the pose (posed_terms.h); NULL: use e, always valid */
-    double posed_e[3];               /* the rest of e beside posed terms; length */
-    _Atomic(struct node *) halves;   /* the last one made; NULL: there is none */
+    double posed_e[3];               /* the rest of e beside posed terms and the ball; of a tube
+                                        without a pose, beside the ball; length */
+    /* > 0: f follows a line, and all points are within its remainder and a ball of this radius,
+     * which e, lo and hi include; length */
+    double ball;
+    _Atomic(struct node *) halves; /* the last one made; NULL: there is none */
 } node;
 
 typedef struct tree tree;
@@ -136,6 +147,16 @@ arena_store *tree_store(const tree *t); /* of the plan */
 imp_code node_child(tree *t, node *parent, parameter j, int side, node **child, tree_growth *growth,
                     imp_error *error);
 
+/* `along` of a tube that is no half of its parent, but all of it. */
+#define NODE_AS_TUBE ((parameter)3)
+
+/* Returns in *tube a node of all that the root holds, made now if it does not exist, that follows
+ * the line in the middle of its surface (imp_surface_type.tube) with a ball around that: it is
+ * bounded as a line, whatever v. Its halves along u and t are tubes, too, those along v are not.
+ * Where there is no line over the region, it is like any other node, and has no ball. Errors are
+ * those of node_child. Preconditions: `root` is one, of no cluster; surface_offers_tube. */
+imp_code node_tube(tree *t, node *root, node **tube, tree_growth *growth, imp_error *error);
+
 /* Like node_child along u or v, for a node whose halves only are needed: unless the node exists
  * already it is made bare, without models, and is not counted. Precondition: `parent` is no
  * cluster. */
@@ -175,11 +196,15 @@ static inline bool node_bends(const node *n)
     return bends;
 }
 
+/* Its remainder along a coordinate, without the ball. */
+static inline double node_blur(const node *n, int i) { return n->e[i] - n->ball; }
+
 /* Whether its remainder is more than this part of the distance that u and v move a point. */
 static inline bool node_blurs(const node *n, double part)
 {
     const double least = part * (n->extent[PARAMETER_U] + n->extent[PARAMETER_V]);
-    return least > 0 && (n->e[0] > least || n->e[1] > least || n->e[2] > least);
+    const double most = least + n->ball;
+    return least > 0 && (n->e[0] > most || n->e[1] > most || n->e[2] > most);
 }
 
 /* Returns models of all points of the node before any map. False: it moves by itself, or has no

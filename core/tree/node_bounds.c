@@ -26,10 +26,32 @@ imp_code node_status_fault(const node *n, imp_status status, imp_error *error)
 
 /* --- Nodes of models -------------------------------------------------------------------------- */
 
+/* Fills a tube from the line in its middle. *done false: it has none that has bounds. Lemma. Each
+ * point of the surface is within the radius of the line's point of its u and t, and so it is under
+ * maps that are rigid in exact arithmetic. */
+static imp_code fill_from_line(node *n, bool *done, imp_error *error)
+{
+    imp_tube tube;
+    imp_status status = surface_tube(n->surface, &n->region, &tube);
+    if (status == IMP_STATUS_OK) status = surface_include_image(n->surface, &n->region, tube.line);
+    *done = status == IMP_STATUS_OK;
+    if (status == IMP_STATUS_UNBOUNDED) return IMP_SUCCESS;
+    if (!*done) return node_status_fault(n, status, error);
+    const char *breach = node_take_model(n, tube.line, false);
+    if (breach != NULL) return node_fault(n, breach, error);
+    node_add_ball(n, tube.radius);
+    return IMP_SUCCESS;
+}
+
 static imp_code fill_from_model(const tree *t, node *n, imp_error *error)
 {
     imp_model model[3];
+    bool done = false;
     if (posing_fill(n)) return IMP_SUCCESS;
+    if (node_is_to_be_tube(n)) {
+        const imp_code code = fill_from_line(n, &done, error);
+        if (code != IMP_SUCCESS || done) return code;
+    }
     if (n->many != NULL) cluster_models(n->many, &n->region, model);
     const imp_status status = n->many != NULL ? surface_include_image(t->surface, &n->region, model)
                                               : surface_include(n->surface, &n->region, model);

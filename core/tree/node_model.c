@@ -54,6 +54,12 @@ IMP_QUAD_WIDE static const char *take_wide(node *n, const imp_model model[3], bo
     return take(n, model, may_be_infinite);
 }
 
+void node_add_ball(node *n, double ball)
+{
+    memcpy(n->posed_e, n->e, sizeof n->posed_e);
+    lanes_add_ball(n, ball);
+}
+
 const char *node_take_model(node *n, const imp_model model[3], bool may_be_infinite)
 {
     return imp_quad_is_wide() ? take_wide(n, model, may_be_infinite)

@@ -10,4 +10,7 @@
  * `may_be_infinite`. */
 const char *node_take_model(node *n, const imp_model model[3], bool may_be_infinite);
 
+/* Adds a ball to a node that was filled with models of a line (node.h). */
+void node_add_ball(node *n, double ball);
+
 #endif

@@ -158,6 +158,6 @@ imp_code node_fill_from_net(tree *t, node *n, bool *done, tree_growth *growth, i
     const imp_code code = node_net_find(t, n, true, &buffer, &made, growth, error);
     if (code != IMP_SUCCESS) return code;
     *done = made != NULL && net_series_take(made, n);
-    if (made != NULL && !*done) n->follows_net = false;
+    if (made != NULL && !*done) n->follows = FOLLOWS_SURFACE;
     return IMP_SUCCESS;
 }

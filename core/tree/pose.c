@@ -330,6 +330,7 @@ IMP_QUAD_INLINE bool take(node *n, const shape_model *s, const pose_lanes *p)
     m.rate[2] = pose_times(p->turn_rate, z.most) + triple_load(p->shift_rate);
     if (!lanes_are_bounded(&m) || !lanes_are_sound(&m)) return false;
     lanes_take(n, &m);
+    if (s->ball > 0) lanes_add_ball(n, s->ball);
     triple_store(n->posed_e, posed_rest_upper(s, &sizes, left));
     n->still = s;
     n->pose = p;

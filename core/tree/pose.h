@@ -17,6 +17,7 @@ typedef struct shape_model {
     double a[3], bu[3], bv[3], quu[3], quv[3], qvv[3]; /* length */
     double e[3], lo[3], hi[3];                         /* as in imp_model; length */
     double rate_u[3], rate_v[3];                       /* not loaded as triples */
+    double ball;                                       /* of a tube: of the node (node.h); length */
 } shape_model;
 
 typedef struct pose_lanes {

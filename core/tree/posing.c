@@ -14,6 +14,7 @@ typedef struct shape {
     bool is_known; /* the model is filled */
     shape_model model;
     _Atomic(struct shape *) child[2][2]; /* along u and v */
+    _Atomic(struct shape *) tube;        /* of the same points */
 } shape;
 
 typedef struct span {
@@ -32,6 +33,16 @@ static const arena_growth posing_growth = {sizeof(span) + sizeof(shape), sizeof(
 
 /* --- Shapes ----------------------------------------------------------------------------------- */
 
+/* The line in the middle of a tube, and its radius. False: there is none over the region. */
+static bool line_of(const surface *s, const imp_region *region, imp_model line[3], double *ball)
+{
+    imp_tube tube;
+    if (surface_tube(s, region, &tube) != IMP_STATUS_OK) return false;
+    memcpy(line, tube.line, sizeof tube.line);
+    *ball = tube.radius;
+    return true;
+}
+
 /* Fills a shape over the u and v of a node, at all times of the root. If there is no model, the
  * node's inclusion through all maps will report the error. */
 static void shape_fill(shape *s, const node *n, const node *root)
@@ -42,14 +53,18 @@ static void shape_fill(shape *s, const node *n, const node *root)
     region.hi[2] = root->region.hi[2];
     region.c[2] = root->region.c[2];
     region.d[2] = root->region.d[2];
+    double ball = 0;
     memset(s, 0, sizeof *s);
+    const bool is_tube = node_is_to_be_tube(n);
+    if (is_tube && !line_of(n->surface, &region, model, &ball)) return;
     if (n->many != NULL)
         cluster_models(n->many, &region, model);
-    else if (surface_include_bare(n->surface, &region, model) != IMP_STATUS_OK)
+    else if (!is_tube && surface_include_bare(n->surface, &region, model) != IMP_STATUS_OK)
         return;
     for (int i = 0; i < 3; ++i)
         if (!(model[i].e < INFINITY)) return;
     s->moves = !shape_model_take(&s->model, model);
+    s->model.ball = ball;
     s->is_known = !s->moves;
 }
 
@@ -172,7 +187,9 @@ imp_code posing_begin(tree *t, node *n, tree_growth *growth, imp_error *error)
     imp_code code = IMP_SUCCESS;
     if (n->parent == tree_root(t)) code = begin_at_root(t, &s, &times, growth, error);
     if (code != IMP_SUCCESS || s == NULL || s->moves) return code;
-    if (n->along == PARAMETER_T)
+    if (n->along == NODE_AS_TUBE)
+        s = shape_in(t, &s->tube, n, growth);
+    else if (n->along == PARAMETER_T)
         code = span_in(t, &times->child[n->side], n, &times, growth, error);
     else
         s = shape_in(t, &s->child[n->along][n->side], n, growth);

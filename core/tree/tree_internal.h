@@ -32,8 +32,8 @@ typedef struct node_place {
     double lo[3], hi[3]; /* [lo, hi] */
     const surface *surface;
     const cluster *many;
-    node *parent; /* NULL: it is the root */
-    parameter along;
+    node *parent;    /* NULL: it is the root */
+    parameter along; /* or NODE_AS_TUBE */
     int side;
 } node_place;
 
@@ -47,6 +47,16 @@ node_place node_place_of_cluster(const surface *s, const cluster *many, double t
 static inline bool node_is_part(const node *n)
 {
     return n->parent != NULL && n->parent->surface == n->surface;
+}
+
+/* Whether the node is to be bounded as a tube: halves along v are not. */
+static inline bool node_is_to_be_tube(const node *n)
+{
+    double lo[3], hi[3];
+    if (n->follows != FOLLOWS_LINE) return false;
+    surface_domain(n->surface, lo, hi);
+    return n->region.lo[PARAMETER_V] == lo[PARAMETER_V] &&
+           n->region.hi[PARAMETER_V] == hi[PARAMETER_V];
 }
 
 /* Makes a node at this place, in uninitialised memory. */

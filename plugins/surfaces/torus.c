@@ -78,11 +78,26 @@ static imp_status torus_symmetry(const void *self, imp_symmetry *symmetry)
     return IMP_STATUS_OK;
 }
 
+/* The middle of the tube: each of its points is that radius from it, also if it intersects
+ * itself. */
+static imp_status torus_tube(const void *self, const imp_region *region, imp_tube *tube)
+{
+    const torus_instance *s = self;
+    imp_model sin_u, cos_u;
+    imp_sincos(imp_param(region, 0), &sin_u, &cos_u);
+    tube->line[0] = imp_shift(imp_scale(cos_u, s->major_radius), s->center[0]);
+    tube->line[1] = imp_shift(imp_scale(sin_u, s->major_radius), s->center[1]);
+    tube->line[2] = imp_num(s->center[2]);
+    tube->radius = s->minor_radius;
+    return imp_models_status(tube->line);
+}
+
 static const imp_surface_type torus = {
     IMP_SURFACE_FIELDS(torus, torus_formula),
     .renew = torus_renew,
     .distance = torus_gap_distance,
     .symmetry = torus_symmetry,
+    .tube = torus_tube,
     .summary = "torus around the z axis; u runs around the ring, v around the tube",
     .equation = "center + ((R + r cos v) cos u, (R + r cos v) sin u, r sin v), R = major_radius, "
                 "r = minor_radius, u and v in [0,2pi]",

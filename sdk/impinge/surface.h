@@ -47,7 +47,7 @@ extern "C" {
  *   - The caller owns every output buffer. Nothing is freed across the boundary.
  *   - Tables, names and texts live as long as the shared object is loaded.
  *   - After create, an instance never changes, except by renew. eval, rate, include, apply, net,
- *     rigid, distance and symmetry are pure: no allocation, no errno, no change of rounding
+ *     rigid, distance, symmetry and tube are pure: no allocation, no errno, no change of rounding
  *     mode or of any other floating-point setting, same answer every time, safe from many
  *     threads at once [thread-safe]. create, renew and destroy are called by one thread at a
  *     time [main-thread].
@@ -271,6 +271,13 @@ typedef struct imp_pose {
     double pivot[3];      /* length */
     double fixed[3];      /* any unit */
 } imp_pose;
+
+/* A line in the middle of a surface that runs around it, over a region: models of c(u, t), which do
+ * not depend on v, with finite rates, and how far the surface is from it at most; finite. */
+typedef struct imp_tube {
+    imp_model line[3]; /* length */
+    double radius;     /* length */
+} imp_tube;
 
 /* --- How a surface can be moved within itself ------------------------------------------------- */
 
@@ -511,6 +518,18 @@ typedef struct imp_surface_type {
      * what it says of a failure is not read. A renew for values of the same shapes as before should
      * not allocate. The host calls it only while nothing else uses the instance. [main-thread] */
     imp_status (*renew)(void *self, const imp_value *values, imp_create_error *why);
+
+    /* Capability `tube`; NULL, or a struct_size that ends before it: there is none.
+     *
+     * For surfaces that run around a line: a torus, a pipe, a capsule. Finds the line c(u, t) in the
+     * middle over the u and t of a region inside the domain, and a radius with
+     *
+     *   |f(u, v, t) - c(u, t)| <= radius   for all u and t of the region, all v of the domain.
+     *
+     * Best is the least such radius: where v runs all around the line at exactly that distance, two
+     * surfaces are nearest where their lines are, and the host divides u and t alone until it knows
+     * where that is. IMP_STATUS_UNBOUNDED: there is no line over this region. [thread-safe] */
+    imp_status (*tube)(const void *self, const imp_region *region, imp_tube *tube);
 } imp_surface_type;
 
 #define IMP_PIECES_MAX ((size_t)1 << 24)
@@ -742,7 +761,7 @@ IMP_LAYOUT(sizeof(imp_net) == 2104 && offsetof(imp_net, place) == 16);
 IMP_LAYOUT(offsetof(imp_net, error) == 64 && offsetof(imp_net, point) == 88);
 IMP_LAYOUT(offsetof(imp_net, velocity) == 952 && offsetof(imp_net, weight) == 1816);
 IMP_LAYOUT(sizeof(imp_text_sink) == 24 && offsetof(imp_text_sink, add) == 16);
-IMP_LAYOUT(sizeof(imp_surface_type) == 176 && offsetof(imp_surface_type, name) == 16);
+IMP_LAYOUT(sizeof(imp_surface_type) == 184 && offsetof(imp_surface_type, name) == 16);
 IMP_LAYOUT(offsetof(imp_surface_type, create) == 64 && offsetof(imp_surface_type, include) == 104);
 IMP_LAYOUT(offsetof(imp_surface_type, net) == 112);
 IMP_LAYOUT(offsetof(imp_surface_type, piece_count) == 120);
@@ -751,6 +770,8 @@ IMP_LAYOUT(offsetof(imp_surface_type, symmetry) == 144);
 IMP_LAYOUT(offsetof(imp_surface_type, formula) == 152);
 IMP_LAYOUT(offsetof(imp_surface_type, write_formula) == 160);
 IMP_LAYOUT(offsetof(imp_surface_type, renew) == 168);
+IMP_LAYOUT(offsetof(imp_surface_type, tube) == 176);
+IMP_LAYOUT(sizeof(imp_tube) == 416 && offsetof(imp_tube, radius) == 408);
 IMP_LAYOUT(sizeof(imp_pose) == 1680 && offsetof(imp_pose, shift) == 1224);
 IMP_LAYOUT(offsetof(imp_pose, pivot) == 1632 && offsetof(imp_pose, fixed) == 1656);
 IMP_LAYOUT(sizeof(imp_symmetry) == 56 && offsetof(imp_symmetry, center) == 8);

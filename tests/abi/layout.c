@@ -76,6 +76,8 @@ static void regions(void)
     NUMBER(IMP_SYMMETRY_ABOUT_POINT), NUMBER(IMP_SYMMETRY_ABOUT_LINE);
     NUMBER(IMP_SYMMETRY_ALONG_LINE), NUMBER(IMP_SYMMETRY_ACROSS_LINE);
     NUMBER(IMP_SYMMETRY_SCREW_RIGHT), NUMBER(IMP_SYMMETRY_SCREW_LEFT), NUMBER(IMP_SCREW_TURNS);
+    FIXED(imp_tube);
+    FIELD(imp_tube, line), FIELD(imp_tube, radius);
     FIXED(imp_symmetry);
     FIELD(imp_symmetry, kind), FIELD(imp_symmetry, is_closed);
     FIELD(imp_symmetry, center), FIELD(imp_symmetry, axis);
@@ -123,6 +125,8 @@ static void types(void)
     CALL(imp_surface_type, write_formula, imp_status(*)(const void *, const imp_text_sink *));
     FIELD(imp_surface_type, renew);
     CALL(imp_surface_type, renew, imp_status(*)(void *, const imp_value *, imp_create_error *));
+    FIELD(imp_surface_type, tube);
+    CALL(imp_surface_type, tube, imp_status(*)(const void *, const imp_region *, imp_tube *));
     CALL(imp_surface_type, domain, void (*)(const void *, double *, double *));
     CALL(imp_surface_type, rate,
          imp_status(*)(const void *, const imp_region *, imp_rate_matrix *));

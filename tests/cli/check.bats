@@ -116,6 +116,16 @@ load ../support/check_helper
     [[ $output == *'pass  distances '*comparisons* ]]
 }
 
+@test "tubes that are too narrow are exposed, and true ones are not" {
+    exposes tubes liar_tube 'the tube claims at most 1.4099'
+    exposes tubes tube_of_v 'the tube over '
+    [[ $output == *'depends on v'* ]]
+    for truthful in "$liars/liar_truthful_tube.so" torus; do
+        run -0 "$IMPINGE" check "$truthful" --only tubes
+        [[ $output == *'pass  tubes '*comparisons* ]]
+    done
+}
+
 @test "symmetries that are none are exposed, and true ones are not" {
     exposes distances liar_symmetry 'symmetry allows turning by '
     exposes distances symmetry_nan 'the symmetry has an unknown kind'

@@ -116,6 +116,7 @@ load ../support/cli_helper
 @test "info lists what the host uses of a type" {
     uses() { "$IMPINGE" info "$1" --json | jq -r '.types[0].capabilities | join(" ")'; }
     [ "$(uses sphere)" = 'core order-2 distance symmetry formula renew' ]
+    [ "$(uses torus)" = 'core order-2 distance symmetry formula renew tube' ]
     [ "$(uses superellipsoid)" = 'core order-2 formula renew' ]
     [ "$(uses bezier)" = 'core order-2 net formula renew' ]
     [ "$(uses translate)" = 'core order-2 net rigid span formula renew' ]

@@ -43,6 +43,23 @@ IMP_DISTANCE_FORMULA(pipe_gap)
 #define LIAR_PIPE(NAME, DISTANCE, SYMMETRY)                                                        \
     static const imp_surface_type liar_type = PIPE_TYPE(NAME, DISTANCE, SYMMETRY);                 \
     TINY_PLUGIN(NAME, liar_type)
+#define LIAR_TUBE(NAME, TUBE)                                                                      \
+    static const imp_surface_type liar_type = {                                                    \
+        .struct_size = sizeof(imp_surface_type),                                                   \
+        .parameter_size = sizeof(imp_parameter),                                                   \
+        .name = NAME,                                                                              \
+        .summary = "a liar",                                                                       \
+        .equation = "(cos u, sin u, v)",                                                           \
+        .example = NAME,                                                                           \
+        .create = tiny_create,                                                                     \
+        .destroy = tiny_destroy,                                                                   \
+        .domain = pipe_domain,                                                                     \
+        .eval = pipe_formula_eval,                                                                 \
+        .rate = pipe_formula_rate,                                                                 \
+        .include = pipe_formula_include,                                                           \
+        .tube = TUBE,                                                                              \
+    };                                                                                             \
+    TINY_PLUGIN(NAME, liar_type)
 #define LIAR_DISTANCE(NAME, DISTANCE) LIAR_PIPE(NAME, DISTANCE, NULL)
 #define LIAR_SYMMETRY(NAME, SYMMETRY) LIAR_PIPE(NAME, pipe_gap_distance, SYMMETRY)
 

@@ -68,6 +68,15 @@ static void call_symmetry(const subject *s, uint64_t *random)
     subject_symmetry(s, &symmetry);
 }
 
+static void call_tube(const subject *s, uint64_t *random)
+{
+    const box where = draw_box(random, &s->domain, s->n);
+    imp_tube tube;
+    if (!subject_has_tube(s)) return;
+    const imp_region region = imp_region_between(where.lo, where.hi);
+    subject_tube(s, &region, &tube);
+}
+
 static const struct {
     const char *name, *of_map; /* of_map: NULL: called so there too */
     void (*call)(const subject *s, uint64_t *random);
@@ -75,7 +84,7 @@ static const struct {
     {"eval", NULL, call_eval},         {"rate", NULL, call_rate},
     {"include", "apply", call_model},  {"net", NULL, call_net},
     {"rigid", NULL, call_rigid},       {"distance", NULL, call_distance},
-    {"symmetry", NULL, call_symmetry},
+    {"symmetry", NULL, call_symmetry}, {"tube", NULL, call_tube},
 };
 
 void pure_call(const subject *s, size_t which, uint64_t *random) { all[which].call(s, random); }

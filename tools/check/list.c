@@ -28,6 +28,7 @@
 #include "tools/check/renewal.h"
 #include "tools/check/state.h"
 #include "tools/check/table.h"
+#include "tools/check/tubes.h"
 
 /* One of the three is set. */
 typedef struct check {
@@ -67,6 +68,7 @@ static const check all[] = {
     {.name = "poses", .of_subject = poses_check, .of_bounds = true, .is_repeated_late = true},
     {.name = "parts", .of_subject = parts_check},
     {.name = "distances", .of_subject = distances_check, .of_bounds = true},
+    {.name = "tubes", .of_subject = tubes_check, .of_bounds = true, .is_repeated_late = true},
     {.name = "formula", .of_stage = formula_check},
     {.name = "proof", .of_subject = proof_check, .of_bounds = true},
     {.name = "tightness", .of_subject = tightness_check},
@@ -76,7 +78,7 @@ const char *const check_names[] = {
     "exports",   "factories", "build",       "parameters", "arguments",   "renewal",     "memory",
     "finite",    "domain",    "determinism", "state",      "allocations", "environment", "buffers",
     "pieces",    "rates",     "errors",      "inclusions", "nets",        "poses",       "parts",
-    "distances", "formula",   "proof",       "tightness",  "cost",        NULL};
+    "distances", "tubes",     "formula",     "proof",      "tightness",   "cost",        NULL};
 
 _Static_assert(sizeof all / sizeof *all + 1 == sizeof check_names / sizeof *check_names,
                "a name for each");

@@ -5,7 +5,7 @@
 
 #include "tools/check/subject.h"
 
-/* Checks that eval, rate, include, apply, rigid, distance and symmetry change nothing that outlives
+/* Checks that eval, rate, include, apply, rigid, distance, symmetry and tube change nothing that outlives
  * the call: neither the plugin's static data, nor the instance or other memory on the heap. A cache
  * may give right results to one thread and wrong ones to two, and comparing results would not show
  * it. Data that is computed once, in the first calls, is allowed. */

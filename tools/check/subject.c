@@ -186,6 +186,18 @@ imp_status subject_symmetry(const subject *s, imp_symmetry *symmetry)
     return noted(s, type->symmetry(s->instance->self, symmetry));
 }
 
+bool subject_has_tube(const subject *s)
+{
+    return surface_type_offers(s->instance->surface, CAPABILITY_TUBE);
+}
+
+imp_status subject_tube(const subject *s, const imp_region *region, imp_tube *tube)
+{
+    memset(tube, 0, sizeof *tube);
+    note(s, "tube", 3, region->lo, region->hi);
+    return noted(s, s->instance->surface->tube(s->instance->self, region, tube));
+}
+
 void subject_operands(const box *where, imp_model in[4])
 {
     const imp_region region = imp_region_between(where->lo, where->hi);

@@ -81,6 +81,10 @@ imp_status subject_distance(const subject *s, const imp_model point[4], imp_mode
 /* Tells how the surface can be moved within itself. IMP_STATUS_UNBOUNDED: it cannot. */
 imp_status subject_symmetry(const subject *s, imp_symmetry *symmetry);
 
+/* Whether it is a surface that has it, and for those. */
+bool subject_has_tube(const subject *s);
+imp_status subject_tube(const subject *s, const imp_region *region, imp_tube *tube);
+
 /* include or apply, whichever it has, over a box; a map's operands are x, y, z themselves, as if
  * they were u, v, t. IMP_STATUS_OK with zeros: it has neither. */
 imp_status subject_model(const subject *s, box where, imp_model model[3]);

@@ -1,0 +1,13 @@
+/* SPDX-FileCopyrightText: The Impinge authors
+ * SPDX-License-Identifier: Apache-2.0 */
+#include "pipe.h"
+
+/* A pipe in a ball around its middle, which its ends reach. */
+static imp_status tube(const void *self, const imp_region *region, imp_tube *of)
+{
+    (void)self, (void)region;
+    for (int i = 0; i < 3; ++i) of->line[i] = imp_num(i == 2);
+    of->radius = 1.4142135623731;
+    return IMP_STATUS_OK;
+}
+LIAR_TUBE("liar_truthful_tube", tube);
