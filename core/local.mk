@@ -131,6 +131,7 @@ core_scene = \
     core/scene/assembly.c core/scene/assembly.h \
     core/scene/default_times.c core/scene/default_times.h \
     core/scene/key_pairs.c core/scene/key_pairs.h \
+    core/scene/map_index.c core/scene/map_index.h \
     core/scene/pair_count.c \
     core/scene/posed_scene.c core/scene/posed_scene.h \
     core/scene/scene.c core/scene/scene.h \

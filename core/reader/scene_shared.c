@@ -84,6 +84,7 @@ static bool describe(shared_instance *p, const scene_making *m)
     if (p->description == NULL) return false;
     p->description->size = size;
     write_given(&m->values, p->description->bytes);
+    instance_hash_description(p->description);
     return true;
 }
 

@@ -46,6 +46,7 @@ static void free_all(imp_scene *scene)
     free(scene->layout);
     free(scene->bodies);
     scene_free_spares(scene);
+    map_index_clear(&scene->maps);
     scene_remarks_clear(&scene->remarks);
     named_files_clear(&scene->files);
     key_pairs_clear(&scene->ignored);

@@ -52,9 +52,8 @@ shared_instance *scene_stage_at(const imp_scene *scene, scene_stage at)
                : NULL;
 }
 
-shared_instance *scene_equal_map(const imp_scene *scene, const shared_instance *map)
+static shared_instance *search_equal_map(const imp_scene *scene, const shared_instance *map)
 {
-    if (map->description == NULL) return NULL;
     for (size_t b = 0; b < scene->count; ++b) {
         const scene_body *body = &scene->bodies[b];
         const instance_list *maps = &scene->layout[b].maps;
@@ -67,6 +66,47 @@ shared_instance *scene_equal_map(const imp_scene *scene, const shared_instance *
         }
     }
     return NULL;
+}
+
+/* --- The index of maps ------------------------------------------------------------------------ */
+
+/* In scenes of fewer bodies a search takes no longer than the hash of a slot. */
+enum { INDEXED_BODIES = 16 };
+
+/* Adds a map, or gives the index up. */
+static void index_map(imp_scene *scene, shared_instance *map)
+{
+    map_index *index = &scene->maps;
+    if (map->map == NULL || map->description == NULL || scene->cannot_index) return;
+    scene->bytes -= map_index_bytes(index);
+    if (!map_index_add(index, map)) {
+        map_index_clear(index);
+        scene->cannot_index = true;
+        scene->indexes_maps = false;
+    }
+    scene->bytes += map_index_bytes(index);
+}
+
+/* Adds all maps of a scene of many bodies when it is first changed. */
+static void begin_index(imp_scene *scene)
+{
+    if (scene->indexes_maps || scene->cannot_index || scene->count < INDEXED_BODIES) return;
+    scene->indexes_maps = true;
+    for (size_t b = 0; b < scene->count; ++b) {
+        const scene_body *body = &scene->bodies[b];
+        const instance_list *maps = &scene->layout[b].maps;
+        for (size_t k = 0; k < maps->count; ++k) index_map(scene, maps->at[k]);
+        for (size_t k = 0; k < body->count; ++k)
+            for (size_t j = scene_own_maps(scene, b, k); j > 0; --j)
+                index_map(scene, surface_stage(body->members[k].surface, j));
+    }
+}
+
+shared_instance *scene_equal_map(imp_scene *scene, const shared_instance *map)
+{
+    if (map->description == NULL) return NULL;
+    begin_index(scene);
+    return scene->indexes_maps ? map_index_find(&scene->maps, map) : search_equal_map(scene, map);
 }
 
 /* Returns where the instance at `at` stands in a surface of a body, as surface_stage counts;
@@ -228,6 +268,19 @@ static void settle_bytes(imp_scene *scene, const change *c)
     }
 }
 
+static void add_instance(imp_scene *scene, shared_instance *p)
+{
+    scene->bytes += instance_bytes(p);
+    if (scene->indexes_maps) index_map(scene, p);
+}
+
+static void remove_instance(imp_scene *scene, const shared_instance *p)
+{
+    scene->bytes -= instance_bytes(p);
+    if (scene->indexes_maps && p->map != NULL && p->description != NULL)
+        map_index_remove(&scene->maps, p);
+}
+
 /* Does what cannot fail any more. Trees lie in the surfaces that they are of, and go first. */
 static void settle(imp_scene *scene, const shared_instance *from, const shared_instance *to,
                    const change *c)
@@ -262,10 +315,10 @@ imp_code scene_replace(imp_scene *scene, scene_stage at, shared_instance *by)
             scene->layout[at.body].maps.at[at.map] = instance_hold(by);
             instance_release(from);
         }
-        if (is_new) scene->bytes += instance_bytes(by);
+        if (is_new) add_instance(scene, by);
     }
     clear(scene, &c); /* which releases the other surfaces' hold of `from` */
-    if (done && is_elsewhere(scene, from)) scene->bytes -= instance_bytes(from);
+    if (done && is_elsewhere(scene, from)) remove_instance(scene, from);
     return done ? IMP_SUCCESS : IMP_ERROR_MEMORY;
 }
 

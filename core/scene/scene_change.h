@@ -22,7 +22,7 @@ shared_instance *scene_stage_at(const imp_scene *scene, scene_stage at);
 
 /* Returns the map of the scene that was made from the same values as this one; NULL: none. Equal
  * maps are one instance, so that the solver sees which motions surfaces have in common. */
-shared_instance *scene_equal_map(const imp_scene *scene, const shared_instance *map);
+shared_instance *scene_equal_map(imp_scene *scene, const shared_instance *map);
 
 /* How many queries and surveys there are. */
 size_t scene_users(const imp_scene *scene);

@@ -5,6 +5,7 @@
 
 #include <stdatomic.h>
 
+#include "core/scene/map_index.h"
 #include "core/scene/scene.h"
 #include "core/scene/scene_remarks.h"
 #include "core/tree/node.h"
@@ -67,6 +68,9 @@ struct imp_scene {
     const imp_registry *registry; /* whose types its instances are of; NULL: it has no layout */
     shared_instance *spare[SCENE_SPARES]; /* spare_count of them, held by nobody else */
     size_t spare_count;
+    map_index maps;             /* of a scene that is changed and has many bodies; else empty */
+    bool indexes_maps;          /* it lists all that have descriptions */
+    bool cannot_index;          /* no memory, or some of them are equal */
     bool chooses_times;         /* nobody has set those to examine */
     _Atomic(size_t) references; /* queries and surveys of it, and its owner */
     /* once it is built all but the members' lists of trees is only read, but by scene_change.c */

@@ -42,7 +42,8 @@ typedef struct instance_shelf {
 
 /* What an instance was made from; equal descriptions are of equal instances of a type. */
 typedef struct instance_description {
-    size_t size; /* of the bytes */
+    uint64_t hash; /* of the bytes */
+    size_t size;   /* their count */
     unsigned char bytes[];
 } instance_description;
 
@@ -126,6 +127,9 @@ void instance_label(const shared_instance *p, char label[INSTANCE_LABEL_MAX]);
 
 /* Copies a note of create, once: `count` items, described by the text. False: no memory. */
 bool instance_set_note(shared_instance *p, uint64_t count, const char *text);
+
+/* Sets the hash of the description, whose bytes are written. */
+void instance_hash_description(instance_description *description);
 
 /* Whether two maps are of one type and have equal descriptions. */
 bool instance_is_equal_map(const shared_instance *x, const shared_instance *y);

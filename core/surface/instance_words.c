@@ -107,12 +107,25 @@ bool instance_set_note(shared_instance *p, uint64_t count, const char *text)
 
 /* --- Descriptions ----------------------------------------------------------------------------- */
 
+void instance_hash_description(instance_description *description)
+{
+    uint64_t hash = description->size;
+    for (size_t k = 0; k < description->size; k += sizeof hash) {
+        const size_t rest = description->size - k;
+        uint64_t word = 0;
+        memcpy(&word, description->bytes + k, rest < sizeof word ? rest : sizeof word);
+        hash = (hash ^ word) * UINT64_C(0x9E3779B97F4A7C15);
+        hash ^= hash >> 32;
+    }
+    description->hash = hash;
+}
+
 /* Each isolated instance has a type of its own, with the name of the type it stands for. No two
  * types of a registry share the text of a name. */
 bool instance_is_equal_map(const shared_instance *x, const shared_instance *y)
 {
     const instance_description *of_x = x->description, *of_y = y->description;
     const bool same_type = x->map != NULL && y->map != NULL && x->map->name == y->map->name;
-    return same_type && of_x != NULL && of_y != NULL && of_x->size == of_y->size &&
-           memcmp(of_x->bytes, of_y->bytes, of_x->size) == 0;
+    return same_type && of_x != NULL && of_y != NULL && of_x->hash == of_y->hash &&
+           of_x->size == of_y->size && memcmp(of_x->bytes, of_y->bytes, of_x->size) == 0;
 }

@@ -5,6 +5,7 @@
 #include <math.h>
 
 #include "core/common/random.h"
+#include "core/scene/scene_change.h"
 #include "core/scene/scene_internal.h"
 #include "tests/support/alloc_failure.h"
 #include "tests/support/query_helpers.h"
@@ -290,6 +291,77 @@ START_TEST(trees_of_other_surfaces_stay)
 }
 END_TEST
 
+/* Balls apart, each moved by one of a few velocities: equal ones are one map. */
+enum { MANY = 60, VELOCITIES = 8 };
+
+static imp_argument velocity_number(size_t k, double to[3])
+{
+    for (size_t i = 0; i < 3; ++i) to[i] = k == 0 ? 0 : (double)(k * (i + 1) % 7) / 7 - 0.5;
+    return imp_argument_list("velocity", to, 3);
+}
+
+static imp_scene *build_many(const size_t velocity[MANY])
+{
+    imp_builder *b = imp_builder_new(registry);
+    good(imp_builder_time(b, 0, 1, &error));
+    for (size_t k = 0; k < MANY; ++k) {
+        double by[3];
+        const double center[3] = {3 * (double)k, 0, 0};
+        const imp_argument at = imp_argument_list("center", center, 3);
+        const imp_argument moves = velocity_number(velocity[k], by);
+        good(imp_builder_body(b, NULL, NULL, &error));
+        good(imp_builder_surface(b, k, "sphere", &at, 1, &error));
+        if (k % 2 == 0)
+            good(imp_builder_map(b, k, "translate", &moves, 1, &error));
+        else
+            good(imp_builder_surface_map(b, k, 0, "translate", &moves, 1, &error));
+    }
+    imp_scene *scene = imp_builder_finish(b, &error);
+    ck_assert_msg(scene != NULL, "%s", error.text);
+    imp_builder_free(b);
+    return scene;
+}
+
+static scene_stage stage_of_many(size_t k)
+{
+    return k % 2 == 0 ? (scene_stage){k, SIZE_MAX, 0} : (scene_stage){k, 0, 0};
+}
+
+START_TEST(maps_of_many_bodies_are_one_where_they_are_equal)
+{
+    uint64_t random = suite_seed();
+    size_t velocity[MANY];
+    for (size_t k = 0; k < MANY; ++k)
+        velocity[k] = (size_t)(random_bits(&random) >> 8) % VELOCITIES;
+    imp_scene *scene = build_many(velocity);
+    for (int change = 0; change < 300; ++change) {
+        const size_t body = (size_t)(random_bits(&random) >> 8) % MANY,
+                     to = (size_t)(random_bits(&random) >> 8) % VELOCITIES;
+        const scene_stage at = stage_of_many(body);
+        double by[3];
+        const imp_argument moves = velocity_number(to, by);
+        velocity[body] = to;
+        good(imp_scene_set_values(scene, body, at.surface, 0, &moves, 1, &error));
+        const shared_instance *own = scene_stage_at(scene, at);
+        for (size_t k = 0; k < MANY; ++k)
+            if ((scene_stage_at(scene, stage_of_many(k)) == own) != (velocity[k] == to))
+                ck_abort_msg("change %d: body %zu and body %zu", change, body, k);
+        size_t distinct = 0;
+        for (size_t v = 0; v < VELOCITIES; ++v) {
+            bool is_there = false;
+            for (size_t k = 0; k < MANY; ++k) is_there = is_there || velocity[k] == v;
+            distinct += is_there;
+        }
+        ck_assert_uint_eq(scene->maps.count, distinct);
+    }
+    imp_scene *built = build_many(velocity);
+    ck_assert_uint_eq(scene_bytes(scene) - spare_bytes(scene) - map_index_bytes(&scene->maps),
+                      scene_bytes(built));
+    imp_scene_free(built);
+    imp_scene_free(scene);
+}
+END_TEST
+
 /* Two balls that turn together, near each other: in the frame that they share they are at rest. */
 static void check_that_equal_maps_are_one(void)
 {
@@ -531,6 +603,7 @@ int main(void)
     const TTest *const tests[] = {a_changed_scene_answers_like_one_that_is_built_so,
                                   each_number_can_be_changed_alone,
                                   what_is_kept_to_be_refilled_counts,
+                                  maps_of_many_bodies_are_one_where_they_are_equal,
                                   trees_of_other_surfaces_stay,
                                   maps_that_become_equal_are_one_map,
                                   isolated_maps_that_become_equal_are_one_map,
