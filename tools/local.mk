@@ -130,7 +130,8 @@ tools_cli = \
     tools/cli/each.c tools/cli/each.h \
     tools/cli/each_parts.c \
     tools/cli/each_internal.h tools/cli/each_line.c \
-    tools/cli/explain.c tools/cli/explain.h \
+    tools/cli/explain.c tools/cli/explain.h tools/cli/explain_advice.c \
+    tools/cli/explain_internal.h \
     tools/cli/file_lock.c tools/cli/file_lock.h \
     tools/cli/help_topics.c tools/cli/help_topics.h \
     tools/cli/input.c tools/cli/input.h \

@@ -71,6 +71,14 @@ static size_t write_json(const char *text, size_t length, char *to)
     return used;
 }
 
+/* Whether something in the text, outside of strings, is to be computed: 2*pi, 1/3, sqrt(2). */
+static bool is_expression(const char *text, size_t length)
+{
+    for (size_t i = 0; i < length; i += text[i] == '"' ? string_length(text + i, length - i) : 1)
+        if (text[i] == '*' || text[i] == '/' || text[i] == '^' || text[i] == '(') return true;
+    return false;
+}
+
 static imp_code parse(const char *text, size_t length, bool list, json_t **json, char *why,
                       size_t why_size)
 {
@@ -87,8 +95,15 @@ static imp_code parse(const char *text, size_t length, bool list, json_t **json,
     free(buffer);
     if (*json != NULL) return IMP_SUCCESS;
     if (no_memory) return IMP_ERROR_MEMORY;
-    snprintf(why, why_size, "got %.*s, which is not a JSON value: %.90s",
-             length < 60 ? (int)length : 60, text, fault.text);
+    const int shown = length < 60 ? (int)length : 60;
+    if (is_expression(text, length))
+        snprintf(
+            why, why_size,
+            "got %.*s; only numbers are read here, no expressions: 6.283185307179586, not 2*pi",
+            shown, text);
+    else
+        snprintf(why, why_size, "got %.*s, which is not a JSON value: %.90s", shown, text,
+                 fault.text);
     return IMP_ERROR_SCENE;
 }
 

@@ -71,9 +71,9 @@ static imp_code refuse_clock(const scene_instances *p, const char *name, const p
                            name, search.best);
     return place_error(at, p->error, IMP_ERROR_SCENE,
                        "got \"%.80s\", which is not a parameter; must be \"time\", a name from "
-                       "the scene's \"parameters\": {\"%.80s\": [lo, hi]}, or the range [lo, hi] "
-                       "of a parameter of its own",
-                       name, name);
+                       "the scene's \"parameters\": {\"%.80s\": [lo, hi]} (or --parameter "
+                       "%.80s=LO,HI), or the range [lo, hi] of a parameter of its own",
+                       name, name, name);
 }
 
 /* Finds the parameter that a clock other than time names, or adds its own. *k: its index. */

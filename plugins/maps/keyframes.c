@@ -26,7 +26,8 @@ static const imp_parameter parameters[] = {
     [ROTATIONS] = IMP_ROW_VECTORS(
         "rotations", "1", NULL, 4, IMP_PARAMETER_OPTIONAL,
         "rotation of each key about the origin, before the translation: a unit quaternion "
-        "[w,x,y,z]; normalized if its length is within 1e-6 of 1"),
+        "[w,x,y,z]; normalized if its length is within 1e-6 of 1; at most 170 degrees from the "
+        "key before"),
     [HOLD] = IMP_ROW_BOOLEAN(
         "hold", "false",
         "whether the first key holds before its time, and the last key after its time"),

@@ -183,7 +183,8 @@ static const imp_map_type rotate = {
     .summary = "turns about an axis, at a constant rate, by a polynomial angle or by a table",
     .equation = "w = (x,y,z) - center, k = axis/|axis|, A = rate t, sum_k angle_k t^k, or the "
                 "table's value at t (between its times a line, or a spline): center + k (k.w) + "
-                "cos A (w - k (k.w)) + sin A (k x w)",
+                "cos A (w - k (k.w)) + sin A (k x w); to turn a part once and for all: "
+                "axis=0,1,0 angle=1.5707963267948966",
     .source = "Von Herzen, Barr, Zatz, SIGGRAPH 1990, appendix B.5",
     .example = "rotate axis=0,0,1 rate=2",
 };

@@ -311,7 +311,7 @@ static const imp_map_type translate = {
     .write_formula = translate_write_formula,
     .summary = "moves along a straight line, along a polynomial in time, or by a table",
     .equation = "(x,y,z) + velocity t, or (x,y,z) + sum_k offset_k t^k, or (x,y,z) + the "
-                "table's value at t",
+                "table's value at t; to place a part once and for all: offset=[[x,y,z]]",
     .source = "Von Herzen, Barr, Zatz, SIGGRAPH 1990, appendix B.4",
     .example = "translate velocity=1,0,0",
 };

@@ -104,7 +104,8 @@ static const imp_surface_type box = {
     .summary = "box with edges along x, y and z, of six rectangles",
     .equation =
         "faces across x, y, z, each at its lower and upper end: corner + u edge_u + v edge_v, "
-        "u and v in [0,1]; corners center -+ size/2, rounded to doubles",
+        "u and v in [0,1]; corners center -+ size/2, rounded to doubles; pieces: 0 and 1 across x, "
+        "2 and 3 across y, 4 and 5 across z, the lower end first",
     .source = NULL,
     .example = "box size=2,1,0.5 center=0,0,1",
 };

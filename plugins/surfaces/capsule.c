@@ -184,7 +184,8 @@ static const imp_surface_type capsule = {
         "all points at one distance from a segment: a cylinder with half spheres at its ends",
     .equation = "from + v (to - from) + radius (a cos u + b sin u), v in [0,1]; from, then to, + "
                 "radius (cos v (a cos u + b sin u) + k sin v), v in [-pi/2,0], then [0,pi/2]; u in "
-                "[0,2pi], k along to - from, a, b across; a = x, b = y for the axis z",
+                "[0,2pi], k along to - from, a, b across; a = x, b = y for the axis z; pieces: 0 "
+                "lateral surface, 1 half sphere at from, 2 half sphere at to",
     .source = NULL,
     .example = "capsule radius=0.2 from=0,0,0 to=1,0,1",
 };

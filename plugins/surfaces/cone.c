@@ -95,7 +95,9 @@ static const imp_surface_type cone = {
     .summary = "cone about the z axis: its lateral surface up to the apex, with ends=true closed "
                "by a disc",
     .equation = "center + ((1-v) radius cos u, (1-v) radius sin u, height v), u in [0,2pi], "
-                "v in [0,1]; end: center + (v radius cos u, v radius sin u, 0)",
+                "v in [0,1]; end: center + (v radius cos u, v radius sin u, 0); pieces: 0 lateral "
+                "surface, 1 end; along another axis: ! rotate axis=0,1,0 angle=1.5707963267948966 "
+                "(z to x)",
     .source = NULL,
     .example = "cone radius=1 height=2",
 };

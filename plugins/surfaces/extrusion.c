@@ -287,7 +287,7 @@ static const imp_surface_type extrusion = {
                 "ends: center + v (c(u) - center), c(u) + vector + v (center - c(u)); of degree 1 "
                 "each segment from p to q is a piece, c(u) = p + u (q - p), u in [0,1], in the "
                 "order of the profile, without those of length 0, then all of the lower end, then "
-                "of the upper",
+                "of the upper; of another degree the pieces are: 0 side, 1 lower end, 2 upper end",
     .source = NULL,
     .example =
         "extrusion profile=[[1,0],[1,2],[-1,2],[-1,0],[1,0]] degree=2 vector=0,0,3 ends=true",

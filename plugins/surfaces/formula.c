@@ -16,7 +16,8 @@ static const imp_parameter parameters[] = {
     [CONSTANTS] = ROW_CONSTANTS("x, y and z"),
     [TIME] = ROW_TIME("[t0,t1]: times at which it exists; default: all times"),
     [DOMAIN] = IMP_ROW("domain", "1", "[[0,1],[0,1]]", 0, 2, 2, 2, -INFINITY, INFINITY,
-                       "[[u0,u1],[v0,v1]]: ranges of u and v; x, y and z must be defined there"),
+                       "[[u0,u1],[v0,v1]]: ranges of u and v; x, y and z must be defined there; "
+                       "numbers, no expressions: 6.283185307179586, not 2*pi"),
 };
 
 typedef struct formula_instance {
@@ -141,7 +142,9 @@ static const imp_surface_type formula = {
     .summary = "any surface, given by formulas",
     .equation = "(x, y, z), each a text in u, v, t with + - * / ^, pi, e, constants, and abs sqrt "
                 "cbrt exp log sin cos tan asin acos atan atan2 sinh cosh tanh pow min max hypot "
-                "clamp lerp copysign; no discontinuous functions",
+                "clamp lerp copysign; no discontinuous functions; a surface of revolution is "
+                "better made by revolution, sphere, cylinder, cone or torus, which know their "
+                "distance and symmetry",
     .source = NULL,
     .example = "formula x=cos(2*pi*u)*(1+a*sin(t)) y=sin(2*pi*u)*(1+a*sin(t)) z=v "
                "constants={\"a\":0.1}",

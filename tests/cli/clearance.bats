@@ -153,6 +153,15 @@ END
     run -0 "$IMPINGE" clearance "$left" "$right"
     [[ ${lines[0]} == 'they touch or overlap at t = '*': "a" and "b"' && $output != *"never nearer"* ]]
     [[ $output == *"gap "*", at most gamma = 1e-06"* ]]
+    run -0 "$IMPINGE" clearance sphere 'sphere center=2.0006,0,0' --gamma 1e-3
+    [[ ${lines[0]} == 'they come within gamma, which counts as contact, at t = 0: "a" and "b"' ]]
+    [[ $output == *"never nearer than 0.0005994"* ]]
+}
+
+@test "advice about a bracket tells how narrow it is so far" {
+    run -3 "$IMPINGE" clearance 'torus ! rotate rate=9 axis=1,0.2,0' 'torus center=4,0,0.2' \
+        --tolerance 1e-8 --max-pairs 250
+    [[ ${lines[-1]} == *'advice '*' is reached so far), and so does --require D'* ]]
 }
 
 @test "each pair of bodies, what is proved to be nearest first" {

@@ -165,7 +165,7 @@ in_parts() {
     fails 2 "--parameter must be NAME=LO,HI, such as angle=0,1.5, not 'a=1'" \
         "$IMPINGE" solve arms.json --parameter a=1
     fails 4 '/parameters/b: got the range [1, 0]' "$IMPINGE" solve arms.json --parameter b=1,0
-    fails 4 'got "x", which is not a parameter' "$IMPINGE" pair 'sphere ! rotate axis=0,0,1 rate=1 clock=x' sphere
+    fails 4 '(or --parameter x=LO,HI)' "$IMPINGE" pair 'sphere ! rotate axis=0,0,1 rate=1 clock=x' sphere
     for option in --each '--refine 1e-2,1e-3'; do
         # shellcheck disable=SC2086 # an option and its value
         fails 2 'and --boxes exclude each other, since the boxes of a file are those of one search; ' "$IMPINGE" solve arms.json $option --boxes p
@@ -332,7 +332,7 @@ three() {
     [[ $output == *'  where '*'one, two'*'  halved   a: '* ]]
     run -3 "$IMPINGE" solve three.json --max-boxes 3 --json
     valid result
-    json '.advice | contains("boxes were halved along")'
+    json '.advice | contains("boxes were halved along") and contains("(--parameter)")'
     json 'has("survey") | not'
 }
 
@@ -347,6 +347,9 @@ three() {
         json '.lower <= 1.1 and .lower >= 1.04 and (.parameters | keys | length == 6) and
             .parameters["tolerance#4"] > 0.3'
     done
+    run -3 "$IMPINGE" clearance 'sphere ! tolerance offset=0.4 angle=0.01' 'sphere center=3.5,0,0' --max-boxes 3
+    [[ $output == *'  share '*' is done: nothing there is nearer, to within --tolerance'* ]]
+    [[ ${lines[-1]} == *"'tolerance#"*'(which a map has of its own: impinge-scene(5)), or a larger --tolerance'* ]]
     fails 4 'has clocks of its own; leave it out' \
         "$IMPINGE" pair 'sphere ! tolerance offset=0.4 clock=0,1' 'sphere center=3.5,0,0'
     fails 4 'must be >= 0' "$IMPINGE" pair 'sphere ! tolerance offset=-1' 'sphere center=3.5,0,0'

@@ -167,6 +167,20 @@ START_TEST(values_that_are_no_json_are_told_with_jansson_s_words)
 }
 END_TEST
 
+START_TEST(values_that_are_expressions_are_told_to_be_no_numbers)
+{
+    static const char *const lines[] = {"kit radius=2*3.14", "kit radius=1/3",
+                                        "kit center=[1,2^3,0]", "kit center=1,sqrt(2),0"};
+    for (size_t i = 0; i < sizeof lines / sizeof *lines; ++i) {
+        ck_assert_msg(read_line(lines[i]) == NULL, "%s", lines[i]);
+        ck_assert_msg(strstr(error.text, "only numbers are read here, no expressions") != NULL,
+                      "%s", error.text);
+    }
+    ck_assert_ptr_null(read_line("kit label=\"a*b\\q\""));
+    ck_assert_msg(strstr(error.text, "which is not a JSON value") != NULL, "%s", error.text);
+}
+END_TEST
+
 START_TEST(what_does_not_fit_is_told_by_its_name)
 {
     assert_pair_wrong("kit radius=-1", "kit radius=1", "a: radius: got -1, must be > 0");
@@ -270,5 +284,6 @@ SUITE_MAIN("pipeline", a_type_alone_is_a_pipeline, values_are_json_or_short_for_
            lists_of_strings_need_no_brackets, maps_stand_behind_bars_in_order,
            what_cannot_be_read_is_told_by_its_character,
            values_that_are_no_json_are_told_with_jansson_s_words,
+           values_that_are_expressions_are_told_to_be_no_numbers,
            what_does_not_fit_is_told_by_its_name, a_pair_is_a_scene_of_bodies_a_and_b,
            a_pair_has_the_text_of_a_scene_file, random_lines_are_read_or_refused_and_never_harm)

@@ -70,9 +70,9 @@ static void take(void *context, size_t index, imp_query *part)
     (void)index;
     imp_clearance_get(part, 0, &answer, NULL);
     const bool is_beyond = f->of->within > 0 && answer.lower >= f->of->within;
-    char *advice = clearance_is_undecided(&answer) && !is_beyond
-                       ? explain_advice(part, answer.reason, explain_goal_of(answer.verdict))
-                       : NULL;
+    const explain_asked asked = explain_asked_of_clearance(f->of->scene, &answer);
+    char *advice =
+        clearance_is_undecided(&answer) && !is_beyond ? explain_advice(part, &asked) : NULL;
     pthread_mutex_lock(&f->lock);
     if (advice != NULL) add_advice(f, &answer, advice);
     clearance_add_stats(&f->found->stats, &answer.stats);

@@ -134,11 +134,10 @@ static exit_status explain(measuring *m)
 {
     const imp_clearance all =
         m->table.count > 0 ? clearance_summary(&m->table) : clearance_of_nothing(m);
-    const explain_goal goal = explain_goal_of(all.verdict);
+    const explain_asked asked = explain_asked_of_clearance(m->scene, &all);
     if (!clearance_is_undecided(&all)) return EXIT_ANSWERED;
-    return explain_query(m->query, all.reason, goal, &m->why)
-               ? EXIT_ANSWERED
-               : complain_of_memory(m->args->verb->name);
+    return explain_query(m->query, &asked, &m->why) ? EXIT_ANSWERED
+                                                    : complain_of_memory(m->args->verb->name);
 }
 
 static exit_status measure(measuring *m)

@@ -79,14 +79,20 @@ static const char *reason_of_none(const imp_clearance *r)
     return why != NULL ? why : result_excuse(r->reason).why;
 }
 
+/* Returns how two bodies meet that are no farther apart than gamma. */
+static const char *meeting_of(const imp_clearance *r)
+{
+    if (r->kind == IMP_CONTACT_INSIDE) return "are one inside the other";
+    return r->lower > 0 ? "come within gamma, which counts as contact," : "touch or overlap";
+}
+
 static void print_bracket(const imp_scene *scene, const imp_clearance *r, double gamma)
 {
     if (!r->has_witness) {
         printf("%s", reason_of_none(r));
     } else if (touches(r, gamma)) {
-        printf("they %s at t = %.10g: \"%s\" and \"%s\"",
-               r->kind == IMP_CONTACT_INSIDE ? "are one inside the other" : "touch or overlap",
-               r->t, name_of(scene, r->a.body), name_of(scene, r->b.body));
+        printf("they %s at t = %.10g: \"%s\" and \"%s\"", meeting_of(r), r->t,
+               name_of(scene, r->a.body), name_of(scene, r->b.body));
     } else {
         printf("nearest ");
         print_nearest(scene, r);

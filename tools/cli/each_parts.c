@@ -19,7 +19,7 @@ static void take(void *context, size_t index, imp_query *part)
 {
     const each *e = context;
     e->answers[index] = imp_query_result(part);
-    e->advice[index] = query_advice(part);
+    e->advice[index] = query_advice(e->scene, part);
 }
 
 bool each_is_over(const each *e) { return interrupt_came() || clock_seconds() >= e->until; }

@@ -2,9 +2,10 @@
  * SPDX-License-Identifier: Apache-2.0 */
 #include <config.h>
 
-#include "tools/cli/explain.h"
+#include "tools/cli/explain_internal.h"
 
 #include <inttypes.h>
+#include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
@@ -12,26 +13,7 @@
 #include "tools/cli/output.h"
 #include "tools/cli/result.h"
 
-/* --- Advice ----------------------------------------------------------------------------------- */
-
-/* An obstacle that took this part of the split pairs is to be removed first. */
-static const double STANDS_OUT = 0.3;
-
-/* What the obstacles have in common: which side's, and of which kind. */
-typedef enum cause {
-    CAUSE_REMAINDER,
-    CAUSE_TIME,
-    CAUSE_BOUNDS,
-    CAUSE_DISTANCE,
-    CAUSE_RESOLUTION,
-    CAUSE_SIZE
-} cause;
-
-static const struct kind {
-    cause cause;
-    int side;
-    const char *name, *text; /* of --json; for people, followed by the surface's type */
-} kinds[IMP_OBSTACLES] = {
+const explain_kind explain_kinds[IMP_OBSTACLES] = {
     [IMP_OBSTACLE_REMAINDER_A] = {CAUSE_REMAINDER, 0, "remainder_a", "the remainder of "},
     [IMP_OBSTACLE_REMAINDER_B] = {CAUSE_REMAINDER, 1, "remainder_b", "the remainder of "},
     [IMP_OBSTACLE_TIME_A] = {CAUSE_TIME, 0, "time_a", "the remainder in time of "},
@@ -44,108 +26,6 @@ static const struct kind {
                                  "the resolution of double precision"},
     [IMP_OBSTACLE_SIZE] = {CAUSE_SIZE, -1, "size", "the size of the regions beside the gap"},
 };
-
-static void advise_on_remainder(const imp_explanation *row, int side, int part, explanation *e)
-{
-    const char *lacks = row->without_order_2[side], *type = row->type[side];
-    if (lacks != NULL)
-        snprintf(e->advice, sizeof e->advice,
-                 "'%s' has no inclusions, and bounds by rates alone take far more pairs: give it "
-                 "include (a map: apply), as <impinge/formula.h> does by itself",
-                 lacks);
-    else
-        snprintf(e->advice, sizeof e->advice,
-                 "the remainders of '%s' hold %d %% of these pairs together: `impinge check %s` "
-                 "tells how much wider than necessary they are",
-                 type, part, type);
-}
-
-/* What helps if no surface can be improved. */
-static const struct resort {
-    const char *resolution, *size;
-} resorts[] = {
-    [EXPLAIN_CONTACT] = {"raise --gamma, or lower --gamma-clear: the room between the two is near "
-                         "the rounding errors",
-                         "a larger --gamma takes fewer pairs"},
-    [EXPLAIN_DISTANCE] = {"raise --tolerance: the bracket is near the rounding errors",
-                          "a larger --tolerance takes fewer pairs"},
-    [EXPLAIN_REQUIREMENT] = {"require a little more or less: the distance is within rounding "
-                             "errors of what is required",
-                             "a smaller --require takes fewer pairs"},
-};
-
-static void advise_on(const imp_explanation *row, imp_obstacle worst, explain_goal goal,
-                      explanation *e)
-{
-    const int side = kinds[worst].side;
-    const bool is_one_type = strcmp(row->type[0], row->type[1]) == 0;
-    const int part = (int)(100 * (double)row->by[worst] / (double)row->divided);
-    switch (kinds[worst].cause) {
-    case CAUSE_REMAINDER:
-        advise_on_remainder(row, side, part, e);
-        break;
-    case CAUSE_TIME:
-        snprintf(
-            e->advice, sizeof e->advice,
-            "'%s' bends in time, which holds %d %% of these pairs together: give a map that is "
-            "rigid its pose; else `impinge check` tells how wide the remainders are",
-            row->type[side], part);
-        break;
-    case CAUSE_BOUNDS:
-        snprintf(e->advice, sizeof e->advice,
-                 "'%s' has no bounds over the regions of %d %% of these pairs "
-                 "(IMP_STATUS_UNBOUNDED): shrink its domain, or bound it there",
-                 row->type[side], part);
-        break;
-    case CAUSE_DISTANCE:
-        snprintf(e->advice, sizeof e->advice,
-                 "the surfaces lie along each other: if '%s'%s%s%s bounds the distance of points "
-                 "(callback distance), one test parts what now takes many",
-                 row->type[0], is_one_type ? "" : " or '", is_one_type ? "" : row->type[1],
-                 is_one_type ? "" : "'");
-        break;
-    case CAUSE_RESOLUTION:
-        snprintf(e->advice, sizeof e->advice, "%s", resorts[goal].resolution);
-        break;
-    case CAUSE_SIZE:
-        snprintf(e->advice, sizeof e->advice,
-                 "no bound of '%s'%s%s%s is to blame: the surfaces come near each other in many "
-                 "places; %s",
-                 row->type[0], is_one_type ? "" : " or '", is_one_type ? "" : row->type[1],
-                 is_one_type ? "" : "'", resorts[goal].size);
-        break;
-    }
-}
-
-static imp_obstacle worst_of(const imp_explanation *row)
-{
-    imp_obstacle worst = IMP_OBSTACLE_SIZE;
-    const double least = STANDS_OUT * (double)row->divided;
-    for (int k = 0; k < IMP_OBSTACLE_SIZE; ++k) {
-        const bool first = worst == IMP_OBSTACLE_SIZE && (double)row->by[k] >= least;
-        if (first || (worst != IMP_OBSTACLE_SIZE && row->by[k] > row->by[worst]))
-            worst = (imp_obstacle)k;
-    }
-    return worst;
-}
-
-/* Fewer pairs than these are no cost, or too few to judge by. */
-enum { TESTED_FEW = 200, WAITING_FEW = 16 };
-
-static void advise(imp_reason why, explain_goal goal, explanation *e)
-{
-    const imp_explanation *row = &e->row[0];
-    const bool is_resolution = why == IMP_REASON_RESOLUTION;
-    if (is_resolution && goal != EXPLAIN_CONTACT) { /* whose pairs are not kept */
-        snprintf(e->advice, sizeof e->advice, "%s", resorts[goal].resolution);
-        return;
-    }
-    if (e->count == 0 || (!is_resolution && !e->is_counted && row->divided < WAITING_FEW)) return;
-    if (!is_resolution && e->is_counted && row->tested < TESTED_FEW)
-        snprintf(e->advice, sizeof e->advice, "these are few pairs: there is nothing to mend");
-    else
-        advise_on(row, is_resolution ? IMP_OBSTACLE_RESOLUTION : worst_of(row), goal, e);
-}
 
 /* --- Reading ---------------------------------------------------------------------------------- */
 
@@ -162,7 +42,7 @@ static int by_divided(const void *x, const void *y)
     return 0;
 }
 
-bool explain_query(const imp_query *query, imp_reason why, explain_goal goal, explanation *e)
+bool explain_query(const imp_query *query, const explain_asked *asked, explanation *e)
 {
     imp_explanation row;
     size_t room = 0;
@@ -179,7 +59,7 @@ bool explain_query(const imp_query *query, imp_reason why, explain_goal goal, ex
         e->row[e->count++] = row;
     }
     if (e->count > 0) qsort(e->row, e->count, sizeof *e->row, by_divided);
-    advise(why, goal, e);
+    explain_advise(asked, e);
     return true;
 }
 
@@ -189,18 +69,27 @@ void explain_free(explanation *e)
     *e = (explanation){.row = NULL};
 }
 
-char *explain_advice(const imp_query *query, imp_reason why, explain_goal goal)
+char *explain_advice(const imp_query *query, const explain_asked *asked)
 {
     explanation e;
-    if (!explain_query(query, why, goal, &e)) return NULL;
+    if (!explain_query(query, asked, &e)) return NULL;
     char *advice = e.advice[0] != '\0' ? strdup(e.advice) : NULL;
     explain_free(&e);
     return advice;
 }
 
-explain_goal explain_goal_of(imp_requirement verdict)
+explain_asked explain_asked_of_contact(const imp_scene *scene, const imp_result *result)
 {
-    return verdict == IMP_REQUIREMENT_NONE ? EXPLAIN_DISTANCE : EXPLAIN_REQUIREMENT;
+    return (explain_asked){scene, result->reason, EXPLAIN_CONTACT, NAN};
+}
+
+explain_asked explain_asked_of_clearance(const imp_scene *scene, const imp_clearance *answer)
+{
+    if (answer->verdict != IMP_REQUIREMENT_NONE)
+        return (explain_asked){scene, answer->reason, EXPLAIN_REQUIREMENT, NAN};
+    const bool is_bracket = answer->lower > 0 && answer->upper < INFINITY;
+    return (explain_asked){scene, answer->reason, EXPLAIN_DISTANCE,
+                           is_bracket ? 1 - answer->lower / answer->upper : NAN};
 }
 
 /* --- For people ------------------------------------------------------------------------------- */
@@ -215,9 +104,9 @@ static void print_row(const imp_scene *scene, const imp_explanation *row)
                imp_scene_body_name(scene, row->body[side]), row->type[side]);
     putchar('\n');
     for (int k = 0; k < IMP_OBSTACLES; ++k) {
-        const int side = kinds[k].side;
+        const int side = explain_kinds[k].side;
         if (row->by[k] == 0) continue;
-        printf("             %8" PRIu64 "    %s", row->by[k], kinds[k].text);
+        printf("             %8" PRIu64 "    %s", row->by[k], explain_kinds[k].text);
         if (side >= 0) printf("%s, %s", side == 0 ? "a" : "b", row->type[side]);
         putchar('\n');
     }
@@ -256,7 +145,8 @@ static json_t *row_json(const imp_scene *scene, const imp_explanation *row)
     json_t *by = json_object();
     bool kept = by != NULL;
     for (int k = 0; kept && k < IMP_OBSTACLES; ++k)
-        kept = json_object_set_new(by, kinds[k].name, json_integer((json_int_t)row->by[k])) == 0;
+        kept = json_object_set_new(by, explain_kinds[k].name,
+                                   json_integer((json_int_t)row->by[k])) == 0;
     json_t *object = json_pack("{s:o, s:o, s:I, s:I}", "a", side_json(scene, row, 0), "b",
                                side_json(scene, row, 1), "tested", (json_int_t)row->tested,
                                "divided", (json_int_t)row->divided);

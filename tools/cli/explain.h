@@ -16,6 +16,17 @@ typedef enum explain_goal {
     EXPLAIN_REQUIREMENT /* a verdict about a distance */
 } explain_goal;
 
+/* What is explained. */
+typedef struct explain_asked {
+    const imp_scene *scene; /* of the query */
+    imp_reason why;         /* the reason of its answer */
+    explain_goal goal;
+    double reached; /* the tolerance that a bracket meets so far; NAN: none, or not of a bracket */
+} explain_asked;
+
+explain_asked explain_asked_of_contact(const imp_scene *scene, const imp_result *result);
+explain_asked explain_asked_of_clearance(const imp_scene *scene, const imp_clearance *answer);
+
 enum { EXPLAIN_ADVICE_BYTES = 512 };
 
 typedef struct explanation {
@@ -25,16 +36,13 @@ typedef struct explanation {
     char advice[EXPLAIN_ADVICE_BYTES]; /* one sentence; empty: nothing is known to help */
 } explanation;                         /* explain_free frees */
 
-/* Reads a query's counts; `why` is its result's reason. False: no memory. */
-bool explain_query(const imp_query *query, imp_reason why, explain_goal goal, explanation *e);
+/* Reads a query's counts. False: no memory. */
+bool explain_query(const imp_query *query, const explain_asked *asked, explanation *e);
 void explain_free(explanation *e);
 
 /* Returns the advice about a query, which the caller frees; NULL: there is none, or no memory. [any
  * thread] */
-char *explain_advice(const imp_query *query, imp_reason why, explain_goal goal);
-
-/* Returns what the clearance asks for: its answers have this verdict. */
-explain_goal explain_goal_of(imp_requirement verdict);
+char *explain_advice(const imp_query *query, const explain_asked *asked);
 
 /* Prints the table, then the advice, each with a label. Without counts there is no table. */
 void explain_print(const imp_scene *scene, const explanation *e);

@@ -93,16 +93,17 @@ imp_code query_solve(imp_scene *scene, const arguments *args, imp_result *result
     imp_query *query = imp_query_new(scene, &options, error);
     if (query == NULL) return error->code;
     const imp_code code = query_run(query, result, error);
-    if (code == IMP_SUCCESS && advice != NULL) *advice = query_advice(query);
+    if (code == IMP_SUCCESS && advice != NULL) *advice = query_advice(scene, query);
     imp_query_free(query);
     return code;
 }
 
-char *query_advice(const imp_query *query)
+char *query_advice(const imp_scene *scene, const imp_query *query)
 {
     const imp_result result = imp_query_result(query);
     if (result.verdict != IMP_VERDICT_UNDECIDED) return NULL;
-    return explain_advice(query, result.reason, EXPLAIN_CONTACT);
+    const explain_asked asked = explain_asked_of_contact(scene, &result);
+    return explain_advice(query, &asked);
 }
 
 exit_status query_status(const imp_result *result, const arguments *args)
@@ -153,8 +154,8 @@ exit_status query_print(const imp_scene *scene, const imp_query *query, const im
     explanation why;
     if (!is_asked && result->verdict != IMP_VERDICT_UNDECIDED)
         return print(scene, result, NULL, args);
-    if (!explain_query(query, result->reason, EXPLAIN_CONTACT, &why))
-        return complain_of_memory(args->verb->name);
+    const explain_asked asked = explain_asked_of_contact(scene, result);
+    if (!explain_query(query, &asked, &why)) return complain_of_memory(args->verb->name);
     const exit_status status = print(scene, result, &why, args);
     explain_free(&why);
     return status;

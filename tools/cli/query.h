@@ -43,7 +43,7 @@ imp_code query_solve(imp_scene *scene, const arguments *args, imp_result *result
 
 /* Returns a sentence of advice about an undecided query for contact, which the caller frees; NULL:
  * there is none, or no memory. [any thread] */
-char *query_advice(const imp_query *query);
+char *query_advice(const imp_scene *scene, const imp_query *query);
 
 /* Returns the number of --threads; without it, or with 0, the number of processors that this
  * process may use. */

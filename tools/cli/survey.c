@@ -110,7 +110,8 @@ typedef struct survey_run {
 static survey_explaining explaining(const survey_run *r, survey_told told)
 {
     return (survey_explaining){.table = arguments_option(r->args, "explain") != NULL,
-                               .advice = told.undecided};
+                               .advice = told.undecided,
+                               .goal = told.goal};
 }
 
 /* Adds what stands beside an answer as JSON; NULL: no memory. */
@@ -163,7 +164,7 @@ static exit_status tell_clearance(const survey_run *r)
     imp_clearance answer = {.struct_size = (uint32_t)sizeof answer};
     imp_survey_get_clearance(r->survey, &answer, NULL);
     const exit_status verdict = clearance_status(&answer);
-    const survey_told told = {answer.has_witness, verdict == EXIT_UNDECIDED};
+    const survey_told told = survey_told_of_clearance(&answer);
     exit_status status;
     if (arguments_option(r->args, "json") != NULL) {
         status = print_json(r, clearance_json(r->scene, &answer), told);

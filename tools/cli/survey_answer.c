@@ -38,13 +38,16 @@ void survey_answer_read(const imp_scene *scene, const imp_survey *survey, survey
 survey_told survey_told_of_contact(const imp_result *result)
 {
     return (survey_told){.known = result->verdict == IMP_VERDICT_CONTACT,
-                         .undecided = result->verdict == IMP_VERDICT_UNDECIDED};
+                         .undecided = result->verdict == IMP_VERDICT_UNDECIDED,
+                         .goal = EXPLAIN_CONTACT};
 }
 
 survey_told survey_told_of_clearance(const imp_clearance *clearance)
 {
+    const bool is_required = clearance->verdict != IMP_REQUIREMENT_NONE;
     return (survey_told){.known = clearance->has_witness,
-                         .undecided = clearance_is_undecided(clearance)};
+                         .undecided = clearance_is_undecided(clearance),
+                         .goal = is_required ? EXPLAIN_REQUIREMENT : EXPLAIN_DISTANCE};
 }
 
 /* --- For programs ----------------------------------------------------------------------------- */
@@ -110,12 +113,20 @@ static void print_worst(const imp_scene *scene, const survey_answer *a)
     printf(", t from %.10g to %.10g\n", a->state.worst_time[0], a->state.worst_time[1]);
 }
 
+/* What is proved of the share that is done with. */
+static const char *const proved_of[] = {
+    [EXPLAIN_CONTACT] = "is proved",
+    [EXPLAIN_DISTANCE] = "is done: nothing there is nearer, to within --tolerance",
+    [EXPLAIN_REQUIREMENT] = "is proved to keep the distance required",
+};
+
 void survey_answer_print(const imp_scene *scene, const survey_answer *a, survey_told told)
 {
     if (told.known) print_values(scene, a);
     if (told.undecided) {
         result_print_label("share");
-        printf("%s of all values and times is proved\n", output_number_lower(a->state.proved).text);
+        printf("%s of all values and times %s\n", output_number_lower(a->state.proved).text,
+               proved_of[told.goal]);
         if (a->state.has_worst) print_worst(scene, a);
         if (a->has_values && !told.known) {
             result_print_label("known");

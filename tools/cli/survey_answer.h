@@ -6,6 +6,8 @@
 #include <impinge/impinge.h>
 #include <jansson.h>
 
+#include "tools/cli/explain.h"
+
 /* What a survey answers beside a result or a clearance: values of parameters, and how far it came.
  * For people and for programs. */
 
@@ -20,9 +22,11 @@ size_t survey_answer_room(const imp_scene *scene);
 
 void survey_answer_read(const imp_scene *scene, const imp_survey *survey, survey_answer *answer);
 
-/* Whether the values are those of the result or clearance, not only of something that is known. */
+/* Whether the values are those of the result or clearance, not only of something that is known, and
+ * what it asks for. */
 typedef struct survey_told {
     bool known, undecided;
+    explain_goal goal;
 } survey_told;
 survey_told survey_told_of_contact(const imp_result *result);
 survey_told survey_told_of_clearance(const imp_clearance *clearance);

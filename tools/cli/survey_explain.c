@@ -6,6 +6,7 @@
 
 #include <stdio.h>
 #include <stdlib.h>
+#include <string.h>
 
 #include "tools/cli/message.h"
 #include "tools/cli/output.h"
@@ -67,16 +68,29 @@ static size_t most_halved(const imp_scene *scene, const survey_costs *c)
     return best;
 }
 
-/* Writes a sentence about what would help; empty: nothing is known to help. */
-static void advise(const imp_scene *scene, const survey_costs *c, char *text, size_t size)
+/* What takes fewer boxes than it does, beside narrower ranges. */
+static const char *const lighter[] = {
+    [EXPLAIN_CONTACT] = "more room between --gamma-clear and --gamma",
+    [EXPLAIN_DISTANCE] = "a larger --tolerance, or --require D",
+    [EXPLAIN_REQUIREMENT] = "a smaller --require",
+};
+
+/* Writes a sentence about what would help; empty: nothing is known to help. A range that a map has
+ * of its own, whose name has a '#', is not one that --parameter sets. */
+static void advise(const imp_scene *scene, const survey_costs *c, explain_goal goal, char *text,
+                   size_t size)
 {
     imp_scene_parameter_info info;
     text[0] = '\0';
     if (!imp_scene_parameter(scene, most_halved(scene, c), &info)) return;
-    snprintf(text, size,
-             "boxes were halved along '%.80s' most often: a narrower range of it (--parameter), or "
-             "more room between --gamma-clear and --gamma, takes fewer",
-             message_shown(info.name).text);
+    snprintf(
+        text, size,
+        "boxes were halved along '%.80s' most often: a narrower range of it (%s), or %s, takes "
+        "fewer",
+        message_shown(info.name).text,
+        strchr(info.name, '#') != NULL ? "which a map has of its own: impinge-scene(5)"
+                                       : "--parameter",
+        lighter[goal]);
 }
 
 enum { ADVICE_BYTES = 512 };
@@ -117,7 +131,7 @@ bool survey_explain_print(const imp_scene *scene, const imp_survey *survey, surv
     const bool read = costs_read(scene, survey, &c);
     if (read && what.table) print_rows(scene, &c);
     if (read && what.table) print_halved(scene, &c);
-    if (read && what.advice) advise(scene, &c, advice, sizeof advice);
+    if (read && what.advice) advise(scene, &c, what.goal, advice, sizeof advice);
     if (advice[0] != '\0') {
         result_print_label("advice");
         puts(advice);
@@ -166,7 +180,7 @@ bool survey_explain_set_json(json_t *object, const imp_scene *scene, const imp_s
     char advice[ADVICE_BYTES] = "";
     bool done = costs_read(scene, survey, &c);
     if (done && what.table) done = set_table(object, scene, &c);
-    if (done && what.advice) advise(scene, &c, advice, sizeof advice);
+    if (done && what.advice) advise(scene, &c, what.goal, advice, sizeof advice);
     if (done) done = result_set_advice(object, advice[0] != '\0' ? advice : NULL);
     costs_free(&c);
     return done;

@@ -6,6 +6,8 @@
 #include <impinge/impinge.h>
 #include <jansson.h>
 
+#include "tools/cli/explain.h"
+
 /* --explain of a scene with parameters: which bodies the boxes of values went to, and which
  * parameters they were halved along. */
 
@@ -13,6 +15,7 @@
  * undecided. */
 typedef struct survey_explaining {
     bool table, advice;
+    explain_goal goal;
 } survey_explaining;
 
 /* Prints the table, then the advice. False: no memory. */
