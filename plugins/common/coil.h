@@ -27,6 +27,7 @@
 typedef struct coil {
     near_constant around, along, offset; /* rad or any unit of phase; 1/length */
     double root;                         /* at most the least radius, > 0; length */
+    double crest;                        /* at least the greatest radius; length */
     double far;                          /* beyond phases of this size nothing is known */
     const void *self;
     imp_model (*radius)(const void *self, imp_model phase);
@@ -84,10 +85,22 @@ static inline imp_model coil_angle(const imp_model m[2], imp_model q)
     return imp_add(imp_asin(imp_div(aside, imp_mul(q, length))), imp_atan2(imp_num(r), imp_num(c)));
 }
 
-/* A distance from the coil of a point with these coordinates, z along the axis. */
-static inline imp_model coil_gap(const coil *c, imp_model x, imp_model y, imp_model z)
+/* What a model claims at least, as a distance. */
+static inline double coil_claim_lower(const imp_model *g) { return imp_larger(g->lo, -g->hi); }
+
+/* A distance by the cylinders on which the crests and the roots lie. Lemma. Every y of the coil has
+ * root <= q_y <= crest, and no point is nearer to another than their q differ. So where all points
+ * have q >= crest, q - crest is a distance, and where all have q <= root, root - q is. */
+static inline imp_model coil_beyond(const coil *c, imp_model square)
 {
-    const imp_model m[2] = {x, y}, q = imp_sqrt(sum_of_squares(m, 2));
+    if (square.lo >= imp_round_up(c->crest * c->crest)) return beyond_radius(square, c->crest);
+    if (square.hi <= imp_round_down(c->root * c->root)) return beyond_radius(square, c->root);
+    return imp_num(0);
+}
+
+/* F as a distance. */
+static inline imp_model coil_flank(const coil *c, const imp_model m[2], imp_model q, imp_model z)
+{
     const imp_model turn = near_scale(coil_angle(m, q), c->around);
     const imp_model phase = near_shift(imp_sub(turn, near_scale(z, c->along)), c->offset);
     if (!(imp_interval_mag(imp_model_range(&phase)) <= c->far)) return imp_unbounded(7);
@@ -95,6 +108,15 @@ static inline imp_model coil_gap(const coil *c, imp_model x, imp_model y, imp_mo
     const double most = imp_interval_mag(imp_model_range(&f));
     if (!(most < INFINITY)) return imp_unbounded(7);
     return imp_scale(f, coil_factor_lower(c, imp_model_range(&phase), most, q.lo));
+}
+
+/* A distance from the coil of a point with these coordinates, z along the axis: the one of both
+ * that claims more. */
+static inline imp_model coil_gap(const coil *c, imp_model x, imp_model y, imp_model z)
+{
+    const imp_model m[2] = {x, y}, square = sum_of_squares(m, 2);
+    const imp_model beyond = coil_beyond(c, square), flank = coil_flank(c, m, imp_sqrt(square), z);
+    return coil_claim_lower(&beyond) > imp_larger(coil_claim_lower(&flank), 0) ? beyond : flank;
 }
 
 #endif

@@ -51,17 +51,19 @@ static near_constant quotient(double sign, near_constant x, near_constant y)
 
 enum { PARTS = 64, FAR = 16 };
 
-/* Finds the least radius within one period. */
-static bool find_root(coil_surface *s, double period)
+/* Finds the least and the greatest radius within one period. */
+static bool find_radii(coil_surface *s, double period)
 {
     s->base.root = INFINITY;
+    s->base.crest = 0;
     for (int k = 0; k < PARTS; ++k) {
         const double lo = period * k / PARTS, hi = period * (k + 1) / PARTS;
-        const double least = radius_over(s, lo - s->slack, hi + s->slack).lo;
-        if (!(least > 0)) return false;
-        s->base.root = imp_smaller(s->base.root, least);
+        const imp_model radius = radius_over(s, lo - s->slack, hi + s->slack);
+        if (!(radius.lo > 0)) return false;
+        s->base.root = imp_smaller(s->base.root, radius.lo);
+        s->base.crest = imp_larger(s->base.crest, radius.hi);
     }
-    return s->base.root < INFINITY;
+    return s->base.root < INFINITY && s->base.crest < INFINITY;
 }
 
 /* At least |R'| over one period, where it is moved as slack says. */
@@ -106,7 +108,8 @@ static bool goes_around(const coil_surface *s, const double lo[2], const double 
  * where the way of the lemma in coil.h keeps it within far: |k P| <= 4 far. The F of that branch
  * differs from that of w by as much as R changes where each w in it is moved by some 4 far drift at
  * most, and so does its slope. One of p's branches is in the range, so that y is no farther away
- * than its |F|. The least radius is that over one period, from 0 on, and its drift. */
+ * than its |F|. The least radius and the greatest are those over one period, from 0 on, and its
+ * drift. */
 bool coil_surface_begin(coil_surface *s, const double lo[2], const double hi[2])
 {
     const coil_form *f = &s->form;
@@ -122,6 +125,7 @@ bool coil_surface_begin(coil_surface *s, const double lo[2], const double hi[2])
                      quotient(-1, near_exact(1), f->kappa),
                      quotient(-1, f->rest, f->kappa),
                      0,
+                     0,
                      FAR * imp_sum_up(imp_interval_mag(w) + turn),
                      NULL,
                      radius_at,
@@ -133,7 +137,7 @@ bool coil_surface_begin(coil_surface *s, const double lo[2], const double hi[2])
         return false;
     s->is_left = (lead.value < 0) != f->is_mirrored;
     s->form.center[f->along] = 0;
-    if (!find_root(s, turn)) return false;
+    if (!find_radii(s, turn)) return false;
     s->is_closed = goes_around(s, lo, hi, lead, turn);
     return true;
 }

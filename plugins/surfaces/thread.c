@@ -34,7 +34,7 @@ static const imp_parameter parameters[] = {
 };
 
 typedef struct thread_instance {
-    double radius, root; /* root: at most the least radius, > 0 */
+    double radius, root, crest; /* root: at most the least radius, > 0; crest: at least the most */
     double starts, height, center[3];
     near_constant along_v, along_z; /* 2 pi height / pitch, 2 pi / pitch; rad, rad/length */
     bool is_closed;                 /* the lead is exact */
@@ -43,12 +43,17 @@ typedef struct thread_instance {
     double profile[];
 } thread_instance;
 
-/* At most radius - |a_1| - |a_2| - ... */
-static double root_lower(double radius, const imp_value *profile)
+/* At least |a_1| + |a_2| + ... */
+static double depth_upper(const imp_value *profile)
 {
     double sum = 0;
     for (size_t k = 0; k < profile->count; ++k) sum = imp_sum_up(sum + fabs(profile->number[k]));
-    return imp_sum_down(radius - sum);
+    return sum;
+}
+
+static double root_lower(double radius, const imp_value *profile)
+{
+    return imp_sum_down(radius - depth_upper(profile));
 }
 
 static imp_status check(const imp_value *values, imp_create_error *why)
@@ -94,6 +99,7 @@ static imp_status thread_create(const imp_value *values, void **self, imp_create
     if (s == NULL) return IMP_STATUS_INTERNAL;
     s->radius = values[RADIUS].number[0];
     s->root = root_lower(s->radius, profile);
+    s->crest = imp_sum_up(s->radius + depth_upper(profile));
     s->starts = values[STARTS].number[0];
     s->height = values[HEIGHT].number[0];
     imp_copy_vector(s->center, &values[CENTER]);
@@ -161,6 +167,7 @@ static imp_model thread_gap(const void *self, imp_model x, imp_model y, imp_mode
                     s->along_z,
                     near_exact(0),
                     s->root,
+                    s->crest,
                     INFINITY,
                     s,
                     radius_at,

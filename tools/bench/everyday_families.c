@@ -310,6 +310,8 @@ const everyday_family everyday_families[] = {
     {"screw whirls in a smooth bore", CYLINDER("@1.3", "3", "0,0,0"), PLACE, THREAD("1", "2"),
      TURN(Z_AXIS, "2") "," PUT("0.2,0,0") "," TURN(Z_AXIS, "3") "," SAME_PLACE, BOND_NONE, 0, false,
      "1234", 50, "", ""},
+    {"pin inside a thread that turns", THREAD("1", "2"), TURN(Z_AXIS, "2") "," PLACE,
+     CYLINDER("~0.9", "3", "0,0,0"), SAME_PLACE, BOND_NONE, 0, false, "1234", 50, "", ""},
     {"shaft of 32 sides whirls in a bore", CYLINDER("@1", "3", "0,0,0"), PLACE,
      LATHE("p 32 0.8:-1 0.8:1"),
      TURN(Z_AXIS, "5") "," PUT("0.2,0,0") "," TURN(Z_AXIS, "3") "," SAME_PLACE, BOND_NONE, 0, false,
