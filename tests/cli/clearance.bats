@@ -106,7 +106,7 @@ END
 }
 
 @test "a requirement ends the search as soon as it is decided, unless a tolerance is given too" {
-    local torus='torus ! rotate axis=1,2,3 rate=2' other='torus center=3.2,0,0 ! rotate rate=1'
+    local torus='torus ! rotate axis=1,2,3 rate=2' other='ellipsoid radii=1,1.2,0.8 center=3,0,0 ! rotate axis=1,1,3 rate=1'
     run -0 "$IMPINGE" clearance "$torus" "$other" --json
     json '.lower > 0.6'
     local pairs
