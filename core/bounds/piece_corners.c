@@ -142,7 +142,7 @@ static void take_hoops(const surface *piece, const time_window *times,
     imp_symmetry line;
     if (surface_inner_maps(piece) > 0 || !surface_has_symmetry(piece)) return;
     *status = surface_symmetry(piece, &line);
-    if (*status != IMP_STATUS_OK) return;
+    if (*status != IMP_STATUS_OK || (line.is_closed & IMP_SYMMETRY_NEARLY) != 0) return;
     const bool u = (line.is_closed & IMP_SYMMETRY_ORBIT_U) != 0;
     if (!u && (line.is_closed & IMP_SYMMETRY_ORBIT_V) == 0) return;
     const int held = u ? PARAMETER_U : PARAMETER_V;

@@ -182,6 +182,21 @@ static imp_status halve(const search *q, double w[2], bool rises)
     }
 }
 
+/* In the gap of a curve that is closed but for a slack, the nearer of its ends is taken. */
+static imp_status take_nearer_end(const search *q, double *found)
+{
+    const double ends[2] = {q->on.lo, q->on.hi};
+    double apart[2];
+    for (int k = 0; k < 2; ++k) {
+        double x[3];
+        const imp_status status = curve_at(&q->on, ends[k], x);
+        if (status != IMP_STATUS_OK) return status;
+        apart[k] = distance_between(x, q->to);
+    }
+    *found = ends[apart[1] < apart[0]];
+    return IMP_STATUS_OK;
+}
+
 /* Finds the parameter next to a sample: between it and one of its neighbours, on whose other side
  * the point is. */
 static imp_status find_near(const search *q, int sample, double *found)
@@ -200,12 +215,13 @@ static imp_status find_near(const search *q, int sample, double *found)
         *found = w[0];
         return status;
     }
-    return status;
+    return status == IMP_STATUS_OK && sample == 0 ? take_nearer_end(q, found) : status;
 }
 
 /* Lemma. By that of slip_first_maps, P(t0) y and P(t) S y are within the slip, with a rotation S
- * about the line. S takes y to a point of its own circle, which is there (surface_around_line). So
- * the points are within the slip under all maps, which has room for the rounding of the parameter
+ * about the line. S takes y to a point of its own circle, which is there (surface_around_line), or
+ * to within the slack of one with the same other parameter: that is part of the slip. So the points
+ * are within the slip under all maps, which has room for the rounding of the parameter
  * (surface_held_maps), and as computed within the errors of both evaluations besides. */
 imp_status surface_held_place(const surface *s, held_maps held, size_t maps, double t,
                               const double x[3], double *u, double *v)

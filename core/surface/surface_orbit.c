@@ -127,7 +127,10 @@ imp_status surface_carry_way(const surface *b, const imp_region *region, const c
  * about b's center c by the angle between the two, which moves y by |y - c| |n_a - n_b| at most,
  * and shifts by the distance d of a's line from c; |F^-1 x - c| <= |x - c| + d. A ball has lines of
  * all directions; across a line all lines of its direction are as good, also the one through a's
- * center. Roundings: sums and products of non-negative numbers, 6 at most. */
+ * center. Roundings: sums and products of non-negative numbers, 6 at most.
+ *
+ * Where points of an orbit are taken to each other but for a slack d, x stands for all points
+ * within d of such an S x: what is claimed of all within 2 s + d of x holds for them. */
 PAD_COVERS(16, 6);
 static double orbit_slip_upper(const feature *a, const feature *b, const double lo[3],
                                const double hi[3])
@@ -177,12 +180,11 @@ imp_status surface_orbit_slip(const surface *a, const surface *b, const double l
         *held = 3;
     }
     const unsigned lines = own.is_closed >> 1 & 3;
-    if (lines == 0 || (all && *slip <= 0x1p-40 * feature_reach_upper(lo, hi, of_b.center)))
-        return IMP_STATUS_OK;
-    const double along_lines = orbit_slip_upper(&of_a, &of_b, lo, hi);
-    if (!(along_lines < *slip)) return IMP_STATUS_OK;
-    *slip = along_lines;
-    *held = lines;
+    if (lines > 0 && !(all && *slip <= 0x1p-40 * feature_reach_upper(lo, hi, of_b.center))) {
+        const double along_lines = orbit_slip_upper(&of_a, &of_b, lo, hi);
+        if (along_lines < *slip) *slip = along_lines, *held = lines;
+    }
+    *slip = sum_upper(*slip, symmetry_slack_upper(&own, lo, hi));
     return IMP_STATUS_OK;
 }
 
@@ -190,7 +192,10 @@ imp_status surface_orbit_slip(const surface *a, const surface *b, const double l
 
 /* Lemma. Where all points of the same t are as far from the center (IMP_SYMMETRY_ORBIT_ALL), each
  * is as far from it as the one in the middle of u and v. The type's own models, whose ranges are
- * taken, hold that point at all times of the region. */
+ * taken, hold that point at all times of the region. Where distances from the center differ by at
+ * most s = IMP_NEARLY_SLACK of the greatest distance of two points, the greatest of them, R, is at
+ * most r + 2 s R, r that of the middle: R <= r / (1 - 2 s) <= r (1 + 4 s). */
+PAD_COVERS(8, 1 + 1); /* product, sum */
 imp_status surface_bare_ball(const surface *s, const imp_region *region, double center[3],
                              double *radius)
 {
@@ -211,6 +216,8 @@ imp_status surface_bare_ball(const surface *s, const imp_region *region, double 
     for (int i = 0; i < 3; ++i) x[i] = imp_shift(x[i], -found.center[i]);
     memcpy(center, found.center, sizeof found.center);
     if (are_finite(x)) *radius = surface_size_upper(x);
+    if ((found.is_closed & IMP_SYMMETRY_NEARLY) != 0)
+        *radius = padded_upper(*radius + 4 * IMP_NEARLY_SLACK * *radius, 8);
     return IMP_STATUS_OK;
 }
 

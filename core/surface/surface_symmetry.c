@@ -23,9 +23,7 @@ bool symmetry_is_sane(const imp_symmetry *found)
         if (fabs(found->axis[i]) > most) most = fabs(found->axis[i]);
     }
     if (found->is_closed > all) return false;
-    if ((found->is_closed & IMP_SYMMETRY_NEARLY) != 0 &&
-        ((found->is_closed & closed) == 0 ||
-         (found->is_closed & ~(closed | IMP_SYMMETRY_NEARLY)) != 0))
+    if ((found->is_closed & IMP_SYMMETRY_NEARLY) != 0 && (found->is_closed & closed) == 0)
         return false;
     if (!is_ball && (found->is_closed & of_ball) != 0) return false;
     if (is_ball && (found->is_closed & of_axis) == 0) return true;

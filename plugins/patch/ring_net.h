@@ -35,6 +35,7 @@ typedef struct ring_net {
     const knots *ring, *profile;
     const double *points, *weights;
     size_t ring_step, profile_step; /* between neighbours, in control points */
+    int along;                      /* the ring's parameter, 0 for u and 1 for v */
     size_t widest;                  /* the ring whose points lie farthest from its first */
     double radius;                  /* of that ring; length */
     const ring_place *at;

@@ -116,7 +116,10 @@ static bool is_ball(const round_profile *p) { return p->kind == ROUND_CIRCLE && 
  * directions within h of each on one side of the axis, and be within `off` of a circle of radius R
  * about 0. A rotation about c takes a point products + |q| e + off from the ball's sphere, and
  * each point of that is within products + |q| (e + g) + off + R h of one of the surface. An angle
- * is no less than its chord.
+ * is no less than its chord. A rotation about the axis that takes E(u)'s direction to E(u')'s takes
+ * the point of (u, v) to within 2 products + 2 |q| e of that of (u', v): these are orbits but for
+ * that, of which images above are, too. Distances from a ball's center are within the profile's
+ * `off` of its radius.
  *
  * Let H be ring_half_size_lower, and all of that be below s H, s = 2^-36. Two points of the surface
  * with opposite n, or at heights 2 H apart, are at least 2 H - 3 s H > H apart: so it is below s
@@ -128,11 +131,13 @@ static uint32_t closed_of(const ring_net *n, const round_net *r, const ring_part
     const double own = imp_sum_up(parts->products + imp_round_up(parts->reach * parts->ring));
     const double gap = imp_sum_up(2 * own + imp_round_up(parts->reach * ring_gap(&around)));
     if (!(gap <= most)) return 0;
-    if (!is_ball(&r->profile)) return IMP_SYMMETRY_CLOSED | IMP_SYMMETRY_NEARLY;
+    const uint32_t orbits = n->along == 0 ? IMP_SYMMETRY_ORBIT_U : IMP_SYMMETRY_ORBIT_V;
+    if (!is_ball(&r->profile)) return IMP_SYMMETRY_CLOSED | IMP_SYMMETRY_NEARLY | orbits;
     const ring_sweep up = ring_sweep_of(n, n->profile, ring_profile_control);
     const double poles = imp_round_up(r->profile.radius * ring_half_gap(&up));
-    const double all = imp_sum_up(imp_sum_up(gap + 2 * r->profile.off) + poles);
-    return IMP_SYMMETRY_NEARLY | (all <= most ? IMP_SYMMETRY_CLOSED : IMP_SYMMETRY_ZONE);
+    const double round = imp_sum_up(gap + 2 * r->profile.off), all = imp_sum_up(round + poles);
+    return IMP_SYMMETRY_NEARLY | orbits | (round <= most ? IMP_SYMMETRY_ORBIT_ALL : 0) |
+           (all <= most ? IMP_SYMMETRY_CLOSED : IMP_SYMMETRY_ZONE);
 }
 
 /* Lemma. With P'_ij = c + z_j k + q_j E_i and weights a_i b_j the surface is c + z(v) k + q(v)
@@ -175,6 +180,7 @@ static bool find_rings(round_net *r, const knots side[2], int along, const doubl
                   .profile = &side[1 - along],
                   .points = points,
                   .weights = weights,
+                  .along = along,
                   .ring_step = along == 0 ? row : 1,
                   .profile_step = along == 0 ? 1 : row};
     if (n.ring->degree < 2) return false;

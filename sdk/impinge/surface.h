@@ -323,10 +323,12 @@ enum {
  * ZONE, for ABOUT_POINT only: the surface is no whole ball, but rotations about the line through
  * the center along the axis (which then counts) map it onto itself: a zone or a cap of a sphere.
  *
- * NEARLY, with CLOSED or ZONE of what is no screw, and no orbits: what is closed but for rounding.
- * These rotations, and their inverses, take each point of the surface to one that is off the
- * surface by at most IMP_NEARLY_SLACK times the greatest distance of two of its points at that t;
- * that is taken off the distances. */
+ * NEARLY, with CLOSED or ZONE of what is no screw: what is closed but for rounding. These
+ * rotations, and their inverses, take each point of the surface to one that is off the surface by
+ * at most IMP_NEARLY_SLACK times the greatest distance of two of its points at that t; that is
+ * taken off the distances. With ORBIT_U such images are off points of the same v, and points of the
+ * same v and t are taken to each other but for that; with ORBIT_V likewise of the same u; with
+ * ORBIT_ALL distances from the center differ by no more. */
 enum {
     IMP_SYMMETRY_CLOSED = 1,
     IMP_SYMMETRY_ORBIT_U = 2,

@@ -96,7 +96,16 @@ static void close_registry(void) { imp_registry_free(registry); }
 
 /* --- Scenes ----------------------------------------------------------------------------------- */
 
-/* Closed about z, some in pieces. */
+/* A cylinder of four rational arcs about z. */
+#define CYLINDER_OF_ARCS                                                                           \
+    "nurbs degree=2,1 knots_u=[0,0,0,1,1,2,2,3,3,4,4,4] knots_v=[0,0,1,1] points=[[0.3,0,-0.5"     \
+    "],[0.3,0,0.4],[0.3,0.3,-0.5],[0.3,0.3,0.4],[0,0.3,-0.5],[0,0.3,0.4],[-0.3,0.3,-0.5],[-0."     \
+    "3,0.3,0.4],[-0.3,0,-0.5],[-0.3,0,0.4],[-0.3,-0.3,-0.5],[-0.3,-0.3,0.4],[0,-0.3,-0.5],[0,"     \
+    "-0.3,0.4],[0.3,-0.3,-0.5],[0.3,-0.3,0.4],[0.3,0,-0.5],[0.3,0,0.4]] weights=[1,1,0.707106"     \
+    "78118654757,0.70710678118654757,1,1,0.70710678118654757,0.70710678118654757,1,1,0.707106"     \
+    "78118654757,0.70710678118654757,1,1,0.70710678118654757,0.70710678118654757,1,1]"
+
+/* Closed about z, some in pieces, some but for rounding. */
 static const char *const rounds[] = {"cylinder radius=0.4 height=0.8 ends=true",
                                      "cylinder radius=0.3 height=0.5",
                                      "cone ends=true",
@@ -104,7 +113,8 @@ static const char *const rounds[] = {"cylinder radius=0.4 height=0.8 ends=true",
                                      "torus major_radius=0.5 minor_radius=0.2",
                                      "disc radius=0.5",
                                      "capsule radius=0.3 from=0,0,-0.4 to=0,0,0.4",
-                                     "ellipsoid radii=0.5,0.5,0.3"};
+                                     "ellipsoid radii=0.5,0.5,0.3",
+                                     CYLINDER_OF_ARCS};
 static const char *const others[] = {"box size=1,0.8,0.6",
                                      "plane origin=-2,-2,0 edge_u=4,0,0 edge_v=0,4,0",
                                      "sphere radius=0.4",

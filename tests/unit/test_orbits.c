@@ -68,9 +68,21 @@ START_TEST(what_moves_as_its_center_does_is_as_far_as_is_claimed)
 }
 END_TEST
 
+enum { BOX = 24 }; /* half of the box in which the first surface is; length */
+
+/* Moves x by that length, in some direction. */
+static void push_aside(uint64_t *random, double length, long double x[3])
+{
+    double way[3], square = 0;
+    draw_vector(random, 1, way);
+    for (int i = 0; i < 3; ++i) square += way[i] * way[i];
+    for (int i = 0; i < 3 && square > 0; ++i) x[i] += length / sqrt(square) * way[i];
+}
+
 /* Two surfaces under one chain of maps, the first beside the other by as much as comes out; points
- * of one orbit of it. */
-static void try_orbit(uint64_t *random, tally *of)
+ * of one orbit of it, which are off by the slack if it is loose, of which a part is left out of the
+ * slip. */
+static void try_orbit(uint64_t *random, bool is_loose, double left_out, tally *of)
 {
     imp_symmetry own = draw_symmetry(random), other = draw_symmetry(random);
     const imp_region times = draw_times(random);
@@ -82,17 +94,20 @@ static void try_orbit(uint64_t *random, tally *of)
     own.is_closed = IMP_SYMMETRY_ORBIT_U;
     if (own.kind == IMP_SYMMETRY_ABOUT_POINT && random_bits(random) % 2)
         own.is_closed = IMP_SYMMETRY_ORBIT_ALL;
+    if (is_loose) own.is_closed |= IMP_SYMMETRY_CLOSED | IMP_SYMMETRY_NEARLY;
+    const double slack = is_loose ? IMP_NEARLY_SLACK * 2 * BOX * sqrt(3) : 0;
     for (int i = 0; i < 3; ++i) own.center[i] = other.center[i] + aside * (i - 1);
     if (random_bits(random) % 4 == 0) own.center[2] += 3;
     if (random_bits(random) % 4 == 0) own.axis[2] = -own.axis[2];
     draw_chain(random, other.center, &c);
-    for (int i = 0; i < 3; ++i) lo[i] = -24, hi[i] = 24;
+    for (int i = 0; i < 3; ++i) lo[i] = -BOX, hi[i] = BOX;
     chain of_b = {.map = {spin_about(other.center, 2)}, .count = c.count + 1};
     for (size_t k = 0; k < c.count; ++k) of_b.map[k + 1] = c.map[k];
     surface *a = compose_exactly(&own, &c), *b = compose_exactly(&other, &of_b);
     ck_assert_int_eq(surface_orbit_slip(a, b, lo, hi, &times, &held, &slip), IMP_STATUS_OK);
     of->known += slip < INFINITY;
-    of->exact += slip < 0x1p-36;
+    of->exact += slip - slack < 0x1p-36;
+    slip -= left_out * slack;
     spin = spin_about(own.center, 1);
     for (int k = 0; k < POINTS && slip < INFINITY; ++k) {
         const double t = random_between(random, times.lo[2], times.hi[2]);
@@ -102,6 +117,7 @@ static void try_orbit(uint64_t *random, tally *of)
         apply(&spin, random_between(random, -3, 3), y);
         if (held == 3)
             for (int i = 0; i < 3; ++i) y[i] = 2 * own.center[i] - y[i];
+        push_aside(random, slack, y);
         for (size_t j = 0; j < c.count; ++j) apply(&c.map[j], t, x), apply(&c.map[j], t, y);
         undo_all(&of_b, t, x);
         undo_all(&of_b, t, y);
@@ -119,7 +135,7 @@ START_TEST(one_point_stands_for_its_orbit)
 {
     uint64_t random = suite_seed();
     tally of = {.judged = 0};
-    for (int k = 0; k < suite_times(CASES / 4); ++k) try_orbit(&random, &of);
+    for (int k = 0; k < suite_times(CASES / 4); ++k) try_orbit(&random, false, 0, &of);
     ck_assert_msg(of.refuted == 0, "of %d %d are refuted", of.judged, of.refuted);
     ck_assert_msg(4 * of.known > suite_times(CASES / 4), "%d are known", of.known);
     ck_assert_msg(20 * of.exact > suite_times(CASES / 4), "%d are exact", of.exact);
@@ -127,5 +143,77 @@ START_TEST(one_point_stands_for_its_orbit)
 }
 END_TEST
 
+START_TEST(one_point_stands_for_its_orbit_but_for_the_slack)
+{
+    uint64_t random = suite_seed();
+    tally of = {.judged = 0}, wrong = {.judged = 0};
+    for (int k = 0; k < suite_times(CASES / 8); ++k) try_orbit(&random, true, 0, &of);
+    ck_assert_msg(of.refuted == 0, "of %d %d are refuted", of.judged, of.refuted);
+    ck_assert_msg(20 * of.exact > suite_times(CASES / 8), "%d are exact", of.exact);
+    for (int k = 0; k < suite_times(CASES / 8); ++k) try_orbit(&random, true, 0.25, &wrong);
+    ck_assert_int_gt(wrong.refuted, 0);
+}
+END_TEST
+
+/* --- Balls ------------------------------------------------------------------------------------ */
+
+static void point_domain(const void *self, double lo[3], double hi[3])
+{
+    (void)self;
+    for (int j = 0; j < 2; ++j) lo[j] = 0, hi[j] = 1;
+    lo[2] = -INFINITY, hi[2] = INFINITY;
+}
+
+static void point_formula(const void *self, imp_model u, imp_model v, imp_model t, imp_model out[3])
+{
+    (void)self, (void)u, (void)v, (void)t;
+    out[0] = imp_num(1);
+    out[1] = out[2] = imp_num(0);
+}
+IMP_SURFACE_FORMULA(point_formula)
+
+static imp_status point_distance(const void *self, const imp_model at[4], imp_model *distance)
+{
+    (void)self, (void)at;
+    *distance = imp_num(0);
+    return IMP_STATUS_OK;
+}
+
+static imp_status point_symmetry(const void *self, imp_symmetry *symmetry)
+{
+    symmetry->kind = IMP_SYMMETRY_ABOUT_POINT;
+    symmetry->is_closed = *(const uint32_t *)self;
+    return IMP_STATUS_OK;
+}
+
+static const imp_surface_type point = {.struct_size = sizeof(imp_surface_type),
+                                       .name = "point",
+                                       .domain = point_domain,
+                                       .destroy = keep,
+                                       .eval = point_formula_eval,
+                                       .rate = point_formula_rate,
+                                       .include = point_formula_include,
+                                       .distance = point_distance,
+                                       .symmetry = point_symmetry};
+
+static double radius_of(uint32_t closed)
+{
+    const imp_region at = region_make((double[3]){0, 0, 0}, (double[3]){1, 1, 0});
+    surface *s = surface_new(&point, &closed);
+    double center[3], radius;
+    ck_assert_int_eq(surface_bare_ball(s, &at, center, &radius), IMP_STATUS_OK);
+    surface_free(s);
+    return radius;
+}
+
+START_TEST(a_ball_that_is_round_but_for_the_slack_is_larger_by_it)
+{
+    const uint32_t exact = IMP_SYMMETRY_ORBIT_ALL | IMP_SYMMETRY_CLOSED;
+    ck_assert_double_le(radius_of(exact), 1 + 0x1p-44);
+    ck_assert_double_ge(radius_of(exact | IMP_SYMMETRY_NEARLY), 1 + 4 * IMP_NEARLY_SLACK);
+}
+END_TEST
+
 SUITE_MAIN("orbits", what_moves_as_its_center_does_is_as_far_as_is_claimed,
-           one_point_stands_for_its_orbit)
+           one_point_stands_for_its_orbit, one_point_stands_for_its_orbit_but_for_the_slack,
+           a_ball_that_is_round_but_for_the_slack_is_larger_by_it)

@@ -122,8 +122,7 @@ static bool judge_symmetry(const subject *s, const imp_symmetry *found)
     }
     sane = sane && found->is_closed <= flags && (is_ball || (found->is_closed & of_ball) == 0) &&
            (found->kind <= IMP_SYMMETRY_ACROSS_LINE || found->is_closed <= IMP_SYMMETRY_CLOSED);
-    sane = sane && (!is_nearly || ((found->is_closed & closed) != 0 &&
-                                   (found->is_closed & ~(closed | IMP_SYMMETRY_NEARLY)) == 0));
+    sane = sane && (!is_nearly || (found->is_closed & closed) != 0);
     const bool has_axis = !is_ball || (found->is_closed & of_axis) != 0;
     sane = sane && (!has_axis || (most >= 1e-100 && most <= 1e100));
     return sane ||
