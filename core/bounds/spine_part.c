@@ -154,6 +154,10 @@ static imp_code choose(spine_query *q, double limit, double *least, double *hope
 
 enum { SPANS = 256 };
 
+/* Spans shorter than this part of all times are not halved: where surfaces come to touch, the least
+ * bound stays at one moment, however short its span. */
+#define SHORTEST 0x1p-20
+
 /* Spans of time, one after the other, with their bounds. */
 typedef struct spans {
     double from[SPANS + 1], lower[SPANS];
@@ -187,8 +191,10 @@ static imp_code bound_all(spine_query *q, double enough, double *lower)
     spans s = {.from = {q->times.lo, q->times.hi}, .count = 1};
     imp_code code = look(q, q->times.lo, q->times.hi, &s.lower[0]);
     size_t k = 0;
+    const double least = SHORTEST * (q->times.hi - q->times.lo);
     while (code == IMP_SUCCESS && !(s.lower[k] > enough) && s.count < SPANS &&
-           q->looks < LOOKS_MOST && s.from[k] < 0.5 * s.from[k] + 0.5 * s.from[k + 1] &&
+           q->looks < LOOKS_MOST && s.from[k + 1] - s.from[k] > least &&
+           s.from[k] < 0.5 * s.from[k] + 0.5 * s.from[k + 1] &&
            0.5 * s.from[k] + 0.5 * s.from[k + 1] < s.from[k + 1]) {
         code = halve(q, &s, k);
         k = lowest(&s);
