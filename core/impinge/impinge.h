@@ -365,9 +365,9 @@ IMP_EXPORT imp_scene *imp_builder_finish(imp_builder *builder, imp_error *error)
  * found out about them. Afterwards the scene answers, bit for bit, like one that was built with
  * these arguments; stats.nodes and stats.bytes count less where trees stayed, and stats.bytes and
  * max_bytes count up to four small instances that changes have replaced, which the scene keeps for
- * later changes of their types, and in scenes of many bodies an index of their maps, which the first
- * change makes. The time of a call grows with the scene where a parent's map is changed, or what
- * several surfaces share; else with what it changes.
+ * later changes of their types, and in scenes of many bodies an index of their maps, which the
+ * first change makes. The time of a call grows with the scene where a parent's map is changed, or
+ * what several surfaces share; else with what it changes.
  *
  * With `map` SIZE_MAX it changes surface number `surface` of the body; with `surface` SIZE_MAX map
  * number `map` of the body, which moves its children, too; otherwise map number `map` of that

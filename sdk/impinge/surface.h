@@ -523,8 +523,8 @@ typedef struct imp_surface_type {
 
     /* Capability `tube`; NULL, or a struct_size that ends before it: there is none.
      *
-     * For surfaces that run around a line: a torus, a pipe, a capsule. Finds the line c(u, t) in the
-     * middle over the u and t of a region inside the domain, and a radius with
+     * For surfaces that run around a line: a torus, a pipe, a capsule. Finds the line c(u, t) in
+     * the middle over the u and t of a region inside the domain, and a radius with
      *
      *   |f(u, v, t) - c(u, t)| <= radius   for all u and t of the region, all v of the domain.
      *

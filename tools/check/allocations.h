@@ -5,8 +5,8 @@
 
 #include "tools/check/subject.h"
 
-/* That eval, rate, include, apply, net, rigid, distance, symmetry and tube allocate and free nothing,
- * neither themselves nor by what they call. */
+/* That eval, rate, include, apply, net, rigid, distance, symmetry and tube allocate and free
+ * nothing, neither themselves nor by what they call. */
 void allocations_check(const subject *s, uint64_t *random, double effort);
 
 #endif
