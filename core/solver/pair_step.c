@@ -44,7 +44,7 @@ static imp_code look_at_spines(const pair *p, candidate_pair *both, const pair_q
                                distance_outcome *seen, imp_error *error)
 {
     distance_slips *slips = &both->slips;
-    if (q->keeps_proof) return IMP_SUCCESS;
+    if (q->keeps_proof || p->tubes == TUBES_CLOSED) return IMP_SUCCESS;
     if (!(slips->apart > q->limit) && are_spines_due(slips, q->limit)) {
         const distance_sides sides = sides_of(p, both, false);
         const time_window all = pair_times(sides.root[0], sides.root[1]),

@@ -33,13 +33,16 @@ static void open_if_due(pair_trials *trials, pair *p)
     if (trials->are_open) p->tubes = TUBES_OPEN;
 }
 
+/* Where a type states no line for one side, both sides stay as they are. */
 static imp_code take_tubes(const impact *im, pair *p, imp_error *error)
 {
     const candidate_pair *both = impact_candidates(im, p);
+    node *a = p->a, *b = p->b;
     tree_growth growth = {0};
-    imp_code code = node_tube(both->side[0]->tree, p->a, &p->a, &growth, error);
-    if (code == IMP_SUCCESS) code = node_tube(both->side[1]->tree, p->b, &p->b, &growth, error);
-    if (code == IMP_SUCCESS) p->tubes = TUBES_CLOSED;
+    imp_code code = node_tube(both->side[0]->tree, a, &a, &growth, error);
+    if (code == IMP_SUCCESS) code = node_tube(both->side[1]->tree, b, &b, &growth, error);
+    if (code == IMP_SUCCESS && a->ball > 0 && b->ball > 0)
+        p->a = a, p->b = b, p->tubes = TUBES_CLOSED;
     im->stats->nodes += growth.nodes;
     im->stats->bytes += growth.bytes;
     return code;
