@@ -301,7 +301,7 @@ static imp_code cut_by(const distance_question *q, const imp_model point[3], con
         view->is_apart = !w_range_cut(&s, both.low[k] - slack, both.drift[k], gamma_clear);
     if (view->is_apart) return IMP_SUCCESS;
     window_cut(window, whole.mid, whole.half, &s);
-    halving_signs of = {.point = point, .g = g, .size = size};
+    halving_signs of = {.point = point, .g = g, .size = size, .limit = gamma_clear};
     for (int k = 0; k < 2; ++k) of.least[k] = both.low[k] - fabs(both.drift[k]);
     return distance_judge_halving(q, &of, view, error);
 }

@@ -27,11 +27,11 @@ static bool is_worth_halving(const distance_question *q, const halving_signs *of
     const node *n = q->a;
     const double extent = n->extent[PARAMETER_U] + n->extent[PARAMETER_V], e = of->g->e - floor;
     const double *least = of->least, farther = least[0] > least[1] ? least[0] : least[1];
-    if (q->held != 0 && fabs(of->g->a) - of->g->e > q->gamma_clear) return true;
+    if (q->held != 0 && fabs(of->g->a) - of->g->e > of->limit) return true;
     if (!(e > TUNING_DISTANCE_ROUNDING * of->size && e < TUNING_DISTANCE_EXTENT * extent))
         return false;
     const bool is_level = -(least[0] + least[1]) < TUNING_DISTANCE_LEVEL * e;
-    return farther - floor + (is_within_itself(q) || is_level ? e : 0) > q->gamma_clear;
+    return farther - floor + (is_within_itself(q) || is_level ? e : 0) > of->limit;
 }
 
 /* The points' middle, which moves in time alone. */

@@ -15,6 +15,7 @@ typedef struct halving_signs {
     const imp_model *g;
     double least[2]; /* of the polynomials of g and of -g; length */
     double size;     /* of g's coefficients; length */
+    double limit;    /* that |g| is to exceed: gamma_clear, and a ball's radius; length */
 } halving_signs;
 
 /* Sets view->is_promising, and adds to view->bend what the distance bends in time beyond its
