@@ -204,7 +204,7 @@ static imp_code try_start(impact *im, pair *p, const distance_outcome *distances
 static bool is_wide_search_due(const impact *im, const pair *p)
 {
     if (im->upper.has_nets || im->trials == NULL || im->spread != NULL) return false;
-    if (im->gamma_clear > 0.5 * im->gamma) return false;
+    if (impact_is_narrow(im)) return false;
     pair_trials *trials = &im->trials[p->candidate_pair];
     trials->popped += 1;
     if (trials->next_wide == 0) trials->next_wide = TUNING_WIDE_FIRST;

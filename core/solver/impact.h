@@ -99,4 +99,7 @@ void impact_note_gap(impact *im, const witness *seen);
 /* Keeps the witness of the contact that ends the search. */
 impact_state impact_contact(impact *im, const witness *seen);
 
+/* Whether gamma_clear is nearly gamma, as for a required distance. */
+static inline bool impact_is_narrow(const impact *im) { return im->gamma_clear > 0.5 * im->gamma; }
+
 #endif

@@ -56,6 +56,7 @@ static imp_code take(const impact *im, pair *p, imp_error *error)
     p->tubes = TUBES_NONE;
     if (!is_to_be_tube(p->a) || !is_to_be_tube(p->b)) return IMP_SUCCESS;
     if (im->trials == NULL || im->proof != NULL || im->spread != NULL) return IMP_SUCCESS;
+    if (impact_is_narrow(im)) return IMP_SUCCESS;
     /* In a half plane surfaces count as curves already. */
     if (impact_candidates(im, p)->side[0]->half != NULL) return IMP_SUCCESS;
     return im->trials[p->candidate_pair].are_open ? IMP_SUCCESS : take_tubes(im, p, error);

@@ -20,9 +20,9 @@ static inline bool pair_has_tubes(const pair *p)
 }
 
 /* Replaces the nodes of a pair of whole surfaces by tubes, if both have lines, or opens tubes if
- * that is due. Not where a proof is kept, whose verifier knows no tubes, nor for a box of values.
- * *gamma, at which surfaces touch, becomes that at which their lines count as touching.
- * IMP_ERROR_PLUGIN: a callback breaks the ABI. */
+ * that is due. Not where a proof is kept, whose verifier knows no tubes, nor for a box of values,
+ * nor where gamma_clear is nearly gamma. *gamma, at which surfaces touch, becomes that at which
+ * their lines count as touching. IMP_ERROR_PLUGIN: a callback breaks the ABI. */
 imp_code pair_tubes_take(const impact *im, pair *p, double *gamma, imp_error *error);
 
 /* Lets v be cut, too. False: it is already, or the nodes are no tubes. */
