@@ -15,13 +15,13 @@ constructor_crashes: trial: loading it crashes: signal 11
 constructor_exits: trial: loading it ends the process with status 0; a plugin must not exit
 constructor_overwrites: trial: loading it overwrites the environment variable
 fp_mode: load: loading it changes the mode of arithmetic
-half_bad: types: half_bad: create is NULL; only include, apply, net, rigid, span, distance, symmetry, formula and write_formula may be
+half_bad: types: half_bad: create is NULL; only include, apply, net, rigid, span, distance, symmetry, tube, formula and write_formula may be
 newer_minor: abi: abi_minor is 77, the host'"'"'s is 0 and may not be less; use a newer host, or
 no_entry: entry: does not export the symbol impinge_plugin; define it by the macro IMPINGE_PLUGIN
 no_factory: types: get_factory knows neither impinge.surface/1 nor impinge.map/1
 no_note: note: has no Impinge note: it is not a plugin, or was built without the macro
 note_disagrees: entry: impinge_plugin says note_disagrees 2.0, ABI 1.0, but the note
-null_callback: types: null_callback: eval is NULL; only include, apply, net, rigid, span, distance, symmetry, formula and write_formula may be
+null_callback: types: null_callback: eval is NULL; only include, apply, net, rigid, span, distance, symmetry, tube, formula and write_formula may be
 null_string: entry: impinge_plugin: author is NULL; must be a line of text
 symmetry_alone: types: symmetry_alone: distance is NULL, but symmetry is given
 undefined_symbol: nobody_defines_this; link it with every library it uses

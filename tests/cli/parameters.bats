@@ -122,7 +122,7 @@ in_parts() {
 
 @test "a box that a limit interrupts is asked again, so that nothing changes" {
     slow_arms >arms.json
-    in_parts '--max-pairs 6000' "$IMPINGE" clearance arms.json --tolerance 0.1
+    in_parts '--max-pairs 1500' "$IMPINGE" clearance arms.json --tolerance 0.1
 }
 
 @test "boxes of another scene, of other options or of no run are refused, and stay" {
@@ -301,7 +301,7 @@ three() {
     valid clearance
     jq -es '.[0].t0 == 0 and .[1].t1 == 1 and (.[0] | has("over") | not)' <<<"$output"
     slow_arms >arms.json
-    run -3 "$IMPINGE" clearance arms.json --profile 4 --tolerance 0.1 --max-pairs 30000
+    run -3 "$IMPINGE" clearance arms.json --profile 4 --tolerance 0.1 --max-pairs 7000
     [ "${lines[-1]}" = '0.5,1,0,,,,,,,' ]
     fails 2 "--over: the scene has no parameter 'c'; its parameters are: a, b" "$IMPINGE" clearance arms.json --profile 4 --over c
     fails 2 'belongs to --profile' "$IMPINGE" clearance arms.json --over b

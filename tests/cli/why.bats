@@ -91,7 +91,7 @@ checks='file format class machine kind headers segments tables note abi'
     run -5 "$IMPINGE" why "$top_builddir/tests/plugins/.libs/half_bad.so" --json
     valid why
     json '.checks[-1] | .check == "types" and .finding == "refused"
-        and .text == "half_bad: create is NULL; only include, apply, net, rigid, span, distance, symmetry, formula and write_formula may be"'
+        and .text == "half_bad: create is NULL; only include, apply, net, rigid, span, distance, symmetry, tube, formula and write_formula may be"'
     run -5 "$IMPINGE" why "$top_builddir/tests/plugins/.libs/note_disagrees.so" --json
     valid why
     json '.checks[-1] | .check == "entry" and .finding == "refused"'

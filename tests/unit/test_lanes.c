@@ -19,6 +19,7 @@
 
 #define imp_quad_is_wide() false
 #define node_take_model narrow_node_take_model
+#define node_add_ball narrow_node_add_ball
 #define difference_at narrow_difference_at
 #define gjk_axis narrow_gjk_axis
 #define fixed_axes_cut narrow_fixed_axes_cut
