@@ -635,12 +635,14 @@ noinst_HEADERS += \
     tests/support/oracle.h \
     tests/support/pose_descent.h \
     tests/support/query_helpers.h \
+    tests/support/read_statement.h \
     tests/support/rough_sheets.h \
     tests/support/same_json.h \
     tests/support/sandbox.h \
     tests/support/scene_text.h \
     tests/support/scene_variants.h \
     tests/support/shape_points.h \
+    tests/support/side_trial.h \
     tests/support/slip_helpers.h \
     tests/support/solid_helpers.h \
     tests/support/sphere_scenes.h \

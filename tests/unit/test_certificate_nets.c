@@ -7,7 +7,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "tests/support/suite.h"
+#include "tests/support/read_statement.h"
 #include "tools/verify/look.h"
 
 /* The control points of impinge-verify: what they bound is held against points of the formulas,
@@ -36,37 +36,6 @@ static const char shapes[] =
     "surface 0 2 5 7 6 5\nsurface 0 3\nsurface 0 3 6 5\nsurface 0 4\nsurface 0 4 5 6\n"
     "surface 0 2 5 8 6\nsurface 0 0 8\nsurface 0 0 9\nsurface 0 2 10 5\nsurface 0 1 9 10 5 11\n"
     "surface 0 2 5 11 7 10 9\nsurface 0 12\nsurface 0 12 9 10\nsurface 0 3 8 9\ntrees\n";
-
-typedef struct scene {
-    statement says;
-    memory *known;
-    jet *room;
-    memo *memos;
-} scene;
-
-static scene scene_made(void)
-{
-    scene s;
-    input in;
-    FILE *file = fmemopen((void *)(uintptr_t)shapes, strlen(shapes), "rb");
-    ck_assert_ptr_nonnull(file);
-    input_begin(&in, file);
-    ck_assert_msg(statement_read(&s.says, &in), "%s", in.fault);
-    fclose(file);
-    s.known = calloc(1, sizeof *s.known);
-    s.room = malloc((2 * (size_t)s.says.steps + 1) * sizeof *s.room);
-    s.memos = calloc(s.says.stage_count + 1, sizeof *s.memos);
-    return s;
-}
-
-static void scene_free(scene *s)
-{
-    for (size_t k = 0; k < s->says.stage_count; ++k) free(s->memos[k].value);
-    free(s->memos);
-    free(s->room);
-    look_free(s->known);
-    statement_free(&s->says);
-}
 
 /* A box of any size down to a few ulps, or a point. */
 static box3 draw_box(uint64_t *seed, const place *of, double from, double to)
@@ -187,7 +156,7 @@ static void check_points(scene *s, uint64_t *seed, const place *of, const box3 *
 START_TEST(control_points_contain_the_points_of_a_box)
 {
     uint64_t seed = suite_seed();
-    scene s = scene_made();
+    scene s = scene_made(shapes);
     int nets = 0, moved = 0, tight = 0, swayed = 0;
     const int times = suite_times(20000);
     for (int k = 0; k < times; ++k) {
@@ -221,7 +190,7 @@ END_TEST
 
 START_TEST(polynomials_and_affine_maps_are_known_as_such)
 {
-    scene s = scene_made();
+    scene s = scene_made(shapes);
     for (size_t k = 0; k < s.says.stage_count; ++k) {
         const part *p = &s.says.stages[k].pieces[0].parts[0];
         ck_assert_int_eq(p->net != NULL, k < 2 || k == 12);

@@ -3,6 +3,7 @@
 #include <config.h>
 
 #include "tests/support/made_certificate.h"
+#include "tests/support/read_statement.h"
 #include "tools/verify/round.h"
 
 /* impinge-verify on maps that turn, of which all angles are bounded at once, and on shapes whose
@@ -28,33 +29,6 @@ static const char shapes[] =
     "surface 0 0 5\nsurface 0 1 6\nsurface 0 2 6\nsurface 0 0 4 7\nsurface 0 1 8 4 7\n"
     "surface 0 2 4 8 7\nsurface 0 0 8 4 8 5\nsurface 0 1 5 4 7\nsurface 0 3 7 6 8\n"
     "surface 0 0 4 4\ntrees\n";
-
-typedef struct scene {
-    statement says;
-    memory *known;
-    jet *room;
-} scene;
-
-static scene scene_made(const char *text)
-{
-    scene s;
-    input in;
-    FILE *file = fmemopen((void *)(uintptr_t)text, strlen(text), "rb");
-    ck_assert_ptr_nonnull(file);
-    input_begin(&in, file);
-    ck_assert_msg(statement_read(&s.says, &in), "%s", in.fault);
-    fclose(file);
-    s.known = calloc(1, sizeof *s.known);
-    s.room = malloc((2 * (size_t)s.says.steps + 1) * sizeof *s.room);
-    return s;
-}
-
-static void scene_free(scene *s)
-{
-    free(s->room);
-    look_free(s->known);
-    statement_free(&s->says);
-}
 
 /* A box of any size down to a few ulps, or a point. */
 static box3 draw_box(uint64_t *seed, const place *of)

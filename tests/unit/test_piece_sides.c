@@ -9,13 +9,13 @@
 #include "core/bounds/piece_shadow.h"
 #include "core/common/random.h"
 #include "core/scene/scene.h"
-#include "tests/support/query_helpers.h"
+#include "tests/support/side_trial.h"
 
 /* Surfaces of many pieces that turn about a line, slide, or lie still inside and beside others:
  * points are where the course says, and at no moment are points nearer than what was claimed of all
  * pieces at once. */
 
-enum { SCENES = 120, MOMENTS = 6, POINTS = 60, STEPS = 60, TEXT = 3000 };
+enum { SCENES = 120, MOMENTS = 6, POINTS = 60, STEPS = 60, TEXT = TRIAL_TEXT };
 
 static imp_registry *registry;
 
@@ -134,53 +134,11 @@ static void draw_scene(uint64_t *random, char a[TEXT], char b[TEXT])
     if (random_bits(random) % 8) strcat(b, place);
 }
 
-typedef struct trial {
-    imp_scene *scene;
-    const surface *s[2];
-    tree *trees[2];
-    distance_slips slips;
-    distance_sides of;
-    time_window times;
-    char text[2][TEXT];
-} trial;
-
-/* Makes the scene of the texts, and its trees between two times. */
-static void trial_open(trial *y, double t0, double t1)
-{
-    imp_error error;
-    y->scene = imp_scene_from_pair(registry, y->text[0], y->text[1], &error);
-    ck_assert_msg(y->scene != NULL, "%s | %s: %s", y->text[0], y->text[1], error.text);
-    y->slips = (distance_slips){.slip = {0, 0}};
-    y->of = (distance_sides){.slips = &y->slips, .takes_orbits = true};
-    for (int k = 0; k < 2; ++k) {
-        const tree_plan plan = {.kind = TREE_MODELS, .t_start = t0, .t_end = t1};
-        tree_growth growth = {0};
-        y->s[k] = scene_surface(y->scene, (size_t)k, 0);
-        ck_assert_int_eq(tree_new(y->s[k], &plan, &y->trees[k], &growth, &error), IMP_SUCCESS);
-        y->of.node[k] = y->of.root[k] = tree_root(y->trees[k]);
-    }
-    y->times = pair_times(y->of.root[0], y->of.root[1]);
-}
-
 static void trial_begin(trial *y, uint64_t *random)
 {
     draw_scene(random, y->text[0], y->text[1]);
     const double t0 = random_fraction(random), t1 = t0 + random_power(random, -8, 0);
-    trial_open(y, t0, t1);
-}
-
-static void trial_end(trial *y)
-{
-    for (int k = 0; k < 2; ++k) tree_free(y->trees[k]);
-    imp_scene_free(y->scene);
-}
-
-static void place_at(const surface *s, const double at[2], double t, double x[3])
-{
-    double lo[3], hi[3];
-    surface_domain(s, lo, hi);
-    const double p[3] = {lo[0] + at[0] * (hi[0] - lo[0]), lo[1] + at[1] * (hi[1] - lo[1]), t};
-    ck_assert_int_eq(surface_eval(s, 1, p, x, NULL), IMP_STATUS_OK);
+    trial_open(y, registry, t0, t1);
 }
 
 /* --- Distances at a moment -------------------------------------------------------------------- */
@@ -532,7 +490,7 @@ START_TEST(what_is_across_a_line_is_told_far_along_it)
         trial y;
         imp_error error;
         draw_far_star(&random, y.text[0], y.text[1]);
-        trial_open(&y, 0, 1);
+        trial_open(&y, registry, 0, 1);
         distance_outcome seen = distance_outcome_none(&y.times);
         ck_assert_int_eq(piece_sides_cut(&y.of, 1, 1e9, &seen, &error), IMP_SUCCESS);
         const double apart = nearly_apart(&y, 0);

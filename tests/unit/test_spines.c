@@ -9,12 +9,20 @@
 #include "core/bounds/spine.h"
 #include "core/scene/scene.h"
 #include "core/surface/course.h"
-#include "tests/support/query_helpers.h"
+#include "tests/support/side_trial.h"
 
 /* Surfaces that turn, and their spines: all points are within the radius of the segment, it is
  * where its models say, and no points of two surfaces are nearer than spines show. */
 
-enum { SPINES = 80, SCENES = 48, MOMENTS = 4, STARTS = 32, BEST = 3, STEPS = 80, TEXT = 2000 };
+enum {
+    SPINES = 80,
+    SCENES = 48,
+    MOMENTS = 4,
+    STARTS = 32,
+    BEST = 3,
+    STEPS = 80,
+    TEXT = TRIAL_TEXT
+};
 
 static imp_registry *registry;
 
@@ -111,19 +119,8 @@ static void draw_other(uint64_t *random, char text[TEXT])
     }
 }
 
-typedef struct trial {
-    imp_scene *scene;
-    const surface *s[2];
-    tree *trees[2];
-    distance_slips slips;
-    distance_sides of;
-    time_window times;
-    char text[2][TEXT];
-} trial;
-
 static void trial_begin(trial *y, uint64_t *random)
 {
-    imp_error error;
     char place[TEXT] = "";
     const double t0 = 0.5 * random_fraction(random), t1 = t0 + random_power(random, -6, -1);
     memset(y, 0, sizeof *y);
@@ -134,31 +131,7 @@ static void trial_begin(trial *y, uint64_t *random)
         add(place, " ! rotate axis=%.17g,%.17g,1 angle=%.17g ! translate offset=[[%.17g,2,3]]",
             part(random), part(random), 3 * part(random), part(random));
     for (int k = 0; k < 2; ++k) strcat(y->text[k], place);
-    y->scene = imp_scene_from_pair(registry, y->text[0], y->text[1], &error);
-    ck_assert_msg(y->scene != NULL, "%s | %s: %s", y->text[0], y->text[1], error.text);
-    y->of = (distance_sides){.slips = &y->slips, .takes_orbits = true};
-    for (int k = 0; k < 2; ++k) {
-        const tree_plan plan = {.kind = TREE_MODELS, .t_start = t0, .t_end = t1};
-        tree_growth growth = {0};
-        y->s[k] = scene_surface(y->scene, (size_t)k, 0);
-        ck_assert_int_eq(tree_new(y->s[k], &plan, &y->trees[k], &growth, &error), IMP_SUCCESS);
-        y->of.node[k] = y->of.root[k] = tree_root(y->trees[k]);
-    }
-    y->times = pair_times(y->of.root[0], y->of.root[1]);
-}
-
-static void trial_end(trial *y)
-{
-    for (int k = 0; k < 2; ++k) tree_free(y->trees[k]);
-    imp_scene_free(y->scene);
-}
-
-static void place_at(const surface *s, const double at[2], double t, double x[3])
-{
-    double lo[3], hi[3];
-    surface_domain(s, lo, hi);
-    const double p[3] = {lo[0] + at[0] * (hi[0] - lo[0]), lo[1] + at[1] * (hi[1] - lo[1]), t};
-    ck_assert_int_eq(surface_eval(s, 1, p, x, NULL), IMP_STATUS_OK);
+    trial_open(y, registry, t0, t1);
 }
 
 /* --- Radii ------------------------------------------------------------------------------------ */
