@@ -158,8 +158,7 @@ static imp_code check_view(const type_view *view, const char *null_callback, imp
     if (null_callback != NULL)
         return place_error(&type, error, IMP_ERROR_PLUGIN,
                            "%s is NULL; only include, apply, net, rigid, span, distance, symmetry, "
-                           "tube, formula and "
-                           "write_formula may be",
+                           "tube, formula and write_formula may be",
                            null_callback);
     const imp_code code = check_table(&view->table, &type, error);
     return code == IMP_SUCCESS && view->parts != NULL ? check_parts(view, &type, error) : code;

@@ -119,8 +119,7 @@ static const imp_surface_type cylinder = {
         "center + (radius cos u, radius sin u, height v), u in [0,2pi], v in [-1/2,1/2]; ends: "
         "center + (v radius cos u, v radius sin u, -height/2), center + ((1-v) radius cos u, "
         "(1-v) radius sin u, height/2), v in [0,1]; pieces: 0 lateral surface, 1 lower end, 2 "
-        "upper "
-        "end; along another axis: ! rotate axis=0,1,0 angle=1.5707963267948966 (z to x)",
+        "upper end; along another axis: ! rotate axis=0,1,0 angle=1.5707963267948966 (z to x)",
     .source = NULL,
     .example = "cylinder radius=0.5 height=3",
 };

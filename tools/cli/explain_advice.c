@@ -90,11 +90,24 @@ static void advise_on_time(const imp_explanation *row, int side, int part,
                  body.text, part, lighter_of(asked).text);
 }
 
+/* Both types, as "'box' or 'mesh'"; one that both surfaces have once. */
+typedef struct types_text {
+    char text[140];
+} types_text;
+static types_text types_of(const imp_explanation *row)
+{
+    types_text types;
+    const bool is_one = strcmp(row->type[0], row->type[1]) == 0;
+    const char *between = is_one ? "" : "' or '", *second = is_one ? "" : row->type[1];
+    snprintf(types.text, sizeof types.text, "'%.63s%s%.63s'", row->type[0], between, second);
+    return types;
+}
+
 static void advise_on(const imp_explanation *row, imp_obstacle worst, const explain_asked *asked,
                       explanation *e)
 {
     const int side = explain_kinds[worst].side;
-    const bool is_one_type = strcmp(row->type[0], row->type[1]) == 0;
+    const types_text types = types_of(row);
     const int part = (int)(100 * (double)row->by[worst] / (double)row->divided);
     switch (explain_kinds[worst].cause) {
     case CAUSE_REMAINDER:
@@ -111,20 +124,18 @@ static void advise_on(const imp_explanation *row, imp_obstacle worst, const expl
         break;
     case CAUSE_DISTANCE:
         snprintf(e->advice, sizeof e->advice,
-                 "the surfaces lie along each other: if '%s'%s%s%s bounds the distance of points "
+                 "the surfaces lie along each other: if %s bounds the distance of points "
                  "(callback distance), one test parts what now takes many",
-                 row->type[0], is_one_type ? "" : " or '", is_one_type ? "" : row->type[1],
-                 is_one_type ? "" : "'");
+                 types.text);
         break;
     case CAUSE_RESOLUTION:
         snprintf(e->advice, sizeof e->advice, "%s", resorts[asked->goal].resolution);
         break;
     case CAUSE_SIZE:
         snprintf(e->advice, sizeof e->advice,
-                 "no bound of '%s'%s%s%s is to blame: the surfaces come near each other in many "
+                 "no bound of %s is to blame: the surfaces come near each other in many "
                  "places; %s",
-                 row->type[0], is_one_type ? "" : " or '", is_one_type ? "" : row->type[1],
-                 is_one_type ? "" : "'", lighter_of(asked).text);
+                 types.text, lighter_of(asked).text);
         break;
     }
 }

@@ -15,8 +15,8 @@
 #include <pthread.h>
 
 /* Each number, array and key of JSON is a block or two. Each thread keeps the small ones that it
- * freed last, in lists by size: 24 bytes, as malloc rounds them, 40 and so on. malloc keeps no more
- * than seven of each size at hand, and takes ten times as long for the others. */
+ * freed last, in lists by size: 24 bytes, as malloc rounds them, 40 and so on. The thread cache of
+ * malloc holds seven blocks of a size; others take ten times as long. */
 enum { LEAST = 24, STEP = 16, SIZES = 8, KEPT_MAX = 1024 };
 
 typedef struct block {
