@@ -27,6 +27,7 @@ core_base = \
     core/base/arena_store.c core/base/arena_store.h \
     core/base/file_state.c core/base/file_state.h \
     core/base/file_text.c core/base/file_text.h \
+    core/base/hash.h \
     core/base/named_files.c core/base/named_files.h \
     core/base/fp_mode.h \
     core/base/limit_watch.h \

@@ -15,7 +15,7 @@ static imp_code add_slip(const distance_sides *of, int side, distance_question *
     const time_window times = pair_times(of->root[0], of->root[1]);
     const imp_region *r = &q->a->region;
     if (is_piece && (r->lo[2] > times.lo || r->hi[2] < times.hi)) return IMP_SUCCESS;
-    const imp_region all = region_make((double[3]){0, 0, times.lo}, (double[3]){0, 0, times.hi});
+    const imp_region all = window_region(&times);
     float *known = &of->slips->ball[side];
     q->moment = 0.5 * times.lo + 0.5 * times.hi;
     if (is_piece || *known == 0) {

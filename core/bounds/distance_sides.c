@@ -15,11 +15,6 @@ distance_outcome distance_outcome_none(const time_window *window)
     return (distance_outcome){.left = *window, .side = -1};
 }
 
-static imp_region all_of(const time_window *times)
-{
-    return region_make((double[3]){0, 0, times->lo}, (double[3]){0, 0, times->hi});
-}
-
 /* Bounds how far one surface slides along the other over their common times: along `plane`, or, if
  * that is NULL, modulo the other's symmetry, to be `enough` (surface_slip). INFINITY: no bound is
  * known, for instance where the other has many pieces, each with its own symmetry. */
@@ -32,7 +27,7 @@ static imp_code find_slip(const node *own, const node *other, const surface_plan
     if ((plane == NULL && other->many != NULL) || !surface_may_slip(own->surface))
         return IMP_SUCCESS;
     if (!node_bare_models(own, bare)) return IMP_SUCCESS;
-    const imp_region all = all_of(times);
+    const imp_region all = window_region(times);
     const surface *a = own->surface, *b = other->surface;
     const imp_status status =
         plane == NULL ? surface_slip(a, b, bare, &all, moment, enough, slip)
@@ -58,7 +53,7 @@ static imp_code find_carry(const distance_sides *of, int side, const time_window
 {
     const node *own = of->root[side];
     const surface *other = of->root[!side]->surface;
-    const imp_region all = all_of(times);
+    const imp_region all = window_region(times);
     double size = 0;
     *slip = INFINITY;
     if (of->root[!side]->many != NULL || !own->bounded) return IMP_SUCCESS;
@@ -76,7 +71,7 @@ static imp_code find_orbit(const distance_sides *of, int side, const time_window
 {
     const node *own = of->node[side], *root = of->root[side];
     const surface *a = own->surface, *b = of->node[!side]->surface;
-    const imp_region all = all_of(times);
+    const imp_region all = window_region(times);
     *held = 0;
     *slip = INFINITY;
     if (!root->bounded || surface_common_maps(a, b) > 0) return IMP_SUCCESS;

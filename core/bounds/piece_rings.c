@@ -18,16 +18,6 @@ typedef struct ring {
     double along[2], beside[2];
 } ring;
 
-static vec3 any_across(vec3 axis)
-{
-    const int i = fabs(axis.x[0]) < fabs(axis.x[1]) ? (fabs(axis.x[0]) < fabs(axis.x[2]) ? 0 : 2)
-                                                    : (fabs(axis.x[1]) < fabs(axis.x[2]) ? 1 : 2);
-    vec3 e = {{0, 0, 0}};
-    e.x[i] = 1;
-    const vec3 across = vec3_cross(axis, e);
-    return vec3_scale(across, 1 / vec3_norm(across));
-}
-
 /* The part of x that is across the axis, a unit vector up to rounding. What one subtraction leaves
  * along the axis is rounding of |x|, the second one's that of the part itself. */
 static vec3 part_across(vec3 axis, vec3 x)
@@ -179,7 +169,7 @@ static bool find_frame(const piece_course *of, const surface *own, line_frame *f
     bool has;
     *status = surface_line_of(own, &of->course, f->center.x, f->axis.x, &has);
     if (*status != IMP_STATUS_OK || !has) return false;
-    f->side = any_across(f->axis);
+    f->side = vec3_across(f->axis);
     return true;
 }
 

@@ -30,20 +30,14 @@ static double moment_of(const time_window *times, double part)
 static bool inverse_at(const surface *s, size_t inner, size_t end, double t, rigid_numbers *m)
 {
     surface first = *s;
-    double x[3][3] = {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}}, turn[3][3];
+    rigid_numbers at;
     first.map_count = end;
-    if (surface_move_outward(&first, inner, t, 3, x[0]) != IMP_STATUS_OK) return false;
-    for (int i = 0; i < 3; ++i)
-        for (int j = 0; j < 2; ++j) turn[i][j] = x[1 + j][i] - x[0][i];
-    for (int i = 0; i < 3; ++i) {
-        const int j = (i + 1) % 3, k = (i + 2) % 3;
-        turn[i][2] = turn[j][0] * turn[k][1] - turn[k][0] * turn[j][1];
-    }
+    if (!course_place_at(&first, inner, t, &at)) return false;
     for (int i = 0; i < 3; ++i) {
         m->shift[i] = 0;
         for (int k = 0; k < 3; ++k) {
-            m->turn[i][k] = turn[k][i];
-            m->shift[i] -= turn[k][i] * x[0][k];
+            m->turn[i][k] = at.turn[k][i];
+            m->shift[i] -= at.turn[k][i] * at.shift[k];
         }
     }
     return true;

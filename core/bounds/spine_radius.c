@@ -3,7 +3,6 @@
 #include <config.h>
 
 #include <impinge/model.h>
-#include <string.h>
 
 #include "core/base/rounding.h"
 #include "core/bounds/piece_sides.h"
@@ -97,15 +96,6 @@ typedef struct search {
     reach all;
 } search;
 
-static imp_region halved(const imp_region *r, int j, int half)
-{
-    double lo[3], hi[3];
-    memcpy(lo, r->lo, sizeof lo);
-    memcpy(hi, r->hi, sizeof hi);
-    *(half == 0 ? &hi[j] : &lo[j]) = r->c[j];
-    return region_make(lo, hi);
-}
-
 /* Along which parameter to halve a cell: that in which it bends most, or, where its models are
  * boxes, in which it extends most across the line. */
 static int worst_of(const spine *of, const imp_model x[3], const imp_region *cell)
@@ -177,7 +167,7 @@ static bool search_piece(search *s, const surface *piece, const imp_region *all,
         const parameter j = found == HALVE_U ? PARAMETER_U : PARAMETER_V;
         if (!region_can_split(&cell, j)) return false;
         for (int half = 0; half < 2; ++half, ++count) {
-            stack[count] = halved(&cell, j, half);
+            region_set_half(&stack[count], &cell, j, half);
             depth[count] = level + 1;
         }
     }

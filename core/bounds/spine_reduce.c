@@ -20,18 +20,6 @@ typedef struct probe {
 /* Looks at a surface for one reduction, and the halvings of a stretch of the line. */
 enum { LOOKS_MOST = 512, STRETCHES = 32, STRETCH_DEPTH = 24, REDUCTIONS = 32 };
 
-static vec3 across_of(const double axis[3])
-{
-    const vec3 k = vec3_from(axis);
-    int least = 0;
-    for (int i = 1; i < 3; ++i)
-        if (fabs(axis[i]) < fabs(axis[least])) least = i;
-    vec3 e = {{0, 0, 0}};
-    e.x[least] = 1;
-    const vec3 n = vec3_cross(k, e);
-    return vec3_scale(n, 1 / vec3_norm(n));
-}
-
 /* A bound of what the type claims of all points center + distance across + z axis, z from lo to hi;
  * 0: none. */
 static imp_code claim(probe *p, double distance, double lo, double hi, double *lower,
@@ -107,7 +95,7 @@ imp_code spine_reduce(spine *of, const time_window *times, double goal, imp_erro
     imp_symmetry line;
     const imp_status status = surface_symmetry(of->of, &line);
     if (status != IMP_STATUS_OK) return IMP_SUCCESS;
-    const vec3 across = across_of(of->axis);
+    const vec3 across = vec3_across(vec3_from(of->axis));
     probe p = {.of = of,
                .across = {across.x[0], across.x[1], across.x[2]},
                .moment = 0.5 * times->lo + 0.5 * times->hi};

@@ -26,6 +26,12 @@ static inline double window_half_upper(const time_window *window, double mid)
     return padded_upper(above > below ? above : below, 4);
 }
 
+/* The times of a window as a region, whose u and v are 0. */
+static inline imp_region window_region(const time_window *window)
+{
+    return region_make((double[3]){0, 0, window->lo}, (double[3]){0, 0, window->hi});
+}
+
 /* The intersection of two windows; lo > hi: it is empty. */
 time_window window_common(time_window x, time_window y);
 

@@ -68,11 +68,6 @@ typedef struct screw_slice {
     double before, slip_most; /* the list's slip, and the most of both; length */
 } screw_slice;
 
-static imp_region over(const time_window *times)
-{
-    return region_make((double[3]){0, 0, times->lo}, (double[3]){0, 0, times->hi});
-}
-
 /* Finds for how near points, and with which slip, the slice's first moment stands for it. */
 static imp_code find_rest(const screw_slice *q, screw_rest *rest, imp_error *error)
 {
@@ -84,7 +79,7 @@ static imp_code find_rest(const screw_slice *q, screw_rest *rest, imp_error *err
         s[k] = tree_surface(p->side[k]->tree);
         if (!node_bare_models(tree_root(p->side[k]->tree), bare[k])) return IMP_SUCCESS;
     }
-    const imp_region times = over(&q->times);
+    const imp_region times = window_region(&q->times);
     const screw_rest_times at = {&times, q->times.lo, 0.5 * q->slip_most};
     int asked;
     const imp_status status = surface_screw_rest(s, bare, &at, rest, &asked);
@@ -98,7 +93,7 @@ static imp_code halve(const screw_slice *q, candidate_moment sides[2], double ne
 {
     const surface *const s[2] = {tree_surface(sides[0].at.tree), tree_surface(sides[1].at.tree)};
     const time_window moment = {q->times.lo, q->times.lo};
-    const imp_region at = over(&moment);
+    const imp_region at = window_region(&moment);
     double lo[2][3], hi[2][3], more;
     half_plane of[2];
     int asked;

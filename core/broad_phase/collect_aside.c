@@ -43,7 +43,7 @@ imp_code frames_set_aside(collection *all, frame_list *frames, size_t k, double 
     time_window times;
     imp_code code = frames_make_roots(all, frames, k, &times, error);
     if (code != IMP_SUCCESS || !(times.lo < times.hi)) return code;
-    const imp_region over = region_make((double[3]){0, 0, times.lo}, (double[3]){0, 0, times.hi});
+    const imp_region over = window_region(&times);
     aside_look *const looks[2] = {&frames->at[of_pair[0]].aside, &frames->at[of_pair[1]].aside};
     const tree *const t[2] = {frames->at[of_pair[0]].made.tree, frames->at[of_pair[1]].made.tree};
     for (int side = 0; side < 2; ++side) s[side] = tree_surface(t[side]);

@@ -152,8 +152,7 @@ static imp_code find_slip(collection *all, candidate *const side[2], const time_
         s[k] = tree_surface(side[k]->tree);
         if (!node_bare_models(tree_root(side[k]->tree), bare[k])) return IMP_SUCCESS;
     }
-    const imp_region all_times =
-        region_make((double[3]){0, 0, times->lo}, (double[3]){0, 0, times->hi});
+    const imp_region all_times = window_region(times);
     int asked = 1;
     /* impinge-verify finds no such turn itself, and needs leaves that are short in time. */
     const bool of_pieces = all->may_halve;
@@ -188,14 +187,13 @@ static bool may_move(const surface *s, const imp_region *times)
 }
 
 /* Notes that a pair has trees of one moment in each slice, or may have them, since it is screwed
- * along a thread: candidates_rest makes them. Lemma. If
- * its distance at any time differs by at most s from that of one moment, it differs by at most 2 s
- * from that of any other. */
+ * along a thread: candidates_rest makes them. Lemma. If its distance at any time differs by at most
+ * s from that of one moment, it differs by at most 2 s from that of any other. */
 static void rest_in_slices(collection *all, candidate_pair *p, candidate *const side[2],
                            const time_window *times, double own, double *found)
 {
     const double slip = sum_upper(2 * own, *found);
-    const imp_region over = region_make((double[3]){0, 0, times->lo}, (double[3]){0, 0, times->hi});
+    const imp_region over = window_region(times);
     const surface *const s[2] = {tree_surface(side[0]->tree), tree_surface(side[1]->tree)};
     bool moves = false;
     p->screws = !(slip <= all->slip_most) && may_screw(all, s);

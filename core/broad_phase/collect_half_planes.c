@@ -76,7 +76,7 @@ imp_code frames_halve_pair(collection *all, frame_list *frames, size_t k, double
         tree_box(t, lo[side], hi[side]);
     }
     const half_plane_boxes boxes = {{lo[0], lo[1]}, {hi[0], hi[1]}};
-    const imp_region over = region_make((double[3]){0, 0, times.lo}, (double[3]){0, 0, times.hi});
+    const imp_region over = window_region(&times);
     int asked;
     imp_status status = surface_half_plane(s, &boxes, &over, of, &more, &asked);
     /* Sections hold points that are near at one time: each slice has its own (candidates_rest). */

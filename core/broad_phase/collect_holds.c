@@ -51,7 +51,7 @@ static imp_code slides_along(const collection *all, const frame *own, const fram
                              const time_window *times, bool *slides, imp_error *error)
 {
     const surface *s = tree_surface(own->made.tree), *t = tree_surface(other->made.tree);
-    const imp_region over = region_make((double[3]){0, 0, times->lo}, (double[3]){0, 0, times->hi});
+    const imp_region over = window_region(times);
     imp_model bare[3];
     double slip;
     *slides = false;

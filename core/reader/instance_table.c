@@ -7,6 +7,7 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "core/base/hash.h"
 #include "core/base/unconst.h"
 
 /* --- Descriptions ----------------------------------------------------------------------------- */
@@ -20,13 +21,6 @@ static uint64_t hash_bytes(uint64_t hash, const void *bytes, size_t count)
     const unsigned char *b = bytes;
     for (size_t k = 0; k < count; ++k) hash = (hash ^ b[k]) * UINT64_C(0x100000001b3);
     return hash;
-}
-
-/* Eight bytes at once; what their product gathers in its upper half reaches the lower. */
-static uint64_t hash_word(uint64_t hash, uint64_t word)
-{
-    hash = (hash ^ word) * UINT64_C(0x9e3779b97f4a7c15);
-    return hash ^ hash >> 32;
 }
 
 static uint64_t hash_text(uint64_t hash, const char *text)

@@ -48,15 +48,10 @@ static bool helps(double left, double before) { return left < 0 || left < 0.5 * 
 
 /* --- Remainders ------------------------------------------------------------------------------- */
 
-static double remainder_of(const node *n)
-{
-    return node_blur(n, 0) + node_blur(n, 1) + node_blur(n, 2);
-}
-
 static imp_obstacle remainder_obstacle(const pair *p, int side)
 {
     const node *n = side == 0 ? p->a : p->b;
-    const bool is_of_time = n->time_remainder > 0.5 * remainder_of(n);
+    const bool is_of_time = n->time_remainder > 0.5 * node_blurs_sum(n);
     if (side == 0) return is_of_time ? IMP_OBSTACLE_TIME_A : IMP_OBSTACLE_REMAINDER_A;
     return is_of_time ? IMP_OBSTACLE_TIME_B : IMP_OBSTACLE_REMAINDER_B;
 }
@@ -68,7 +63,7 @@ static int blurred_side(const pair *p, double gamma_clear)
     const double whole = p->window.hi - p->window.lo;
     const double now = left_of(p, false, false, gamma_clear);
     const double before = now >= 0 && now < whole ? now : whole;
-    const int larger = remainder_of(p->b) > remainder_of(p->a);
+    const int larger = node_blurs_sum(p->b) > node_blurs_sum(p->a);
     double left[2];
     left[0] = left_of(p, true, false, gamma_clear);
     left[1] = left_of(p, false, true, gamma_clear);

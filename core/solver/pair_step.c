@@ -85,14 +85,15 @@ static imp_code look_at_nodes(const pair *p, candidate_pair *both, const pair_qu
                                .slides = p->slides,
                                .sliding = q->sliding};
     if (!p->a->bounded || !p->b->bounded) return IMP_SUCCESS;
-    distance_sides sides = sides_of(p, both, q->keeps_proof);
     if (pair_has_cluster(p)) {
+        const distance_sides sides = sides_of(p, both, q->keeps_proof);
         const bool is_first = is_all_of(p->a, sides.root[0]) && is_all_of(p->b, sides.root[1]);
         return is_first ? piece_sides_cut(&sides, 1u << q->goal, q->limit, seen, error)
                         : IMP_SUCCESS;
     }
     if (!strategy_takes_distances(p->a, p->b, &signs, q->goal)) return IMP_SUCCESS;
     if (p->a->ball > 0 || p->b->ball > 0) return IMP_SUCCESS; /* lines tell no distances */
+    distance_sides sides = sides_of(p, both, q->keeps_proof);
     sides.seeks_contact = q->goal == GOAL_CONTACT;
     sides.seeks_start = q->goal == GOAL_CONTACT && signs.is_whole;
     const imp_code code = distance_cut_sides(&sides, q->limit, seen, error);
@@ -114,8 +115,7 @@ cut pair_cut_alone(const pair *p, const distance_outcome *seen, double scale)
 {
     if (seen->side < 0) return CUT_NONE;
     const node *n = seen->side == 0 ? p->a : p->b;
-    const bool matters = node_blur(n, 0) + node_blur(n, 1) + node_blur(n, 2) > scale;
-    return matters ? cut_alone(p, seen->side, seen->bend, scale) : CUT_NONE;
+    return node_blurs_sum(n) > scale ? cut_alone(p, seen->side, seen->bend, scale) : CUT_NONE;
 }
 
 void pair_push(pair_heap *heap, pair *p, double t, uint64_t *serial, imp_stats *stats)

@@ -33,10 +33,9 @@ imp_code pair_measure(const pair *p, const candidate_pair *both, imp_error *erro
 typedef struct pair_question {
     double limit; /* nodes farther apart do not matter; length */
     strategy_goal goal;
-    bool
-        keeps_proof; /* a certificate is written, whose verifier does not believe a type's claims of
-                         symmetry, so that no point stands for others, and no screw motion is taken
-                         for rest */
+    /* A certificate is written, whose verifier does not believe a type's claims of symmetry: no
+     * point stands for others, and no screw motion is taken for rest. */
+    bool keeps_proof;
     const time_window *within; /* of the search; NULL: all times of the two surfaces */
     trial_rate *sliding;       /* the candidate pair's count of trials, or NULL */
 } pair_question;

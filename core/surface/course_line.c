@@ -40,10 +40,8 @@ double course_line_between(const rigid_numbers *m0, const rigid_numbers *m1, dou
     return sine;
 }
 
-/* The last maps of s at t. False: a callback refuses. */
-static bool place_at(const surface *s, double t, rigid_numbers *place)
+bool course_place_at(const surface *s, size_t inner, double t, rigid_numbers *place)
 {
-    const size_t inner = surface_inner_maps(s);
     double x[3][3] = {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}};
     if (surface_move_outward(s, inner, t, 3, x[0]) != IMP_STATUS_OK) return false;
     for (int i = 0; i < 3; ++i) {
@@ -61,7 +59,9 @@ static bool place_at(const surface *s, double t, rigid_numbers *place)
 static bool relate_places(const surface *a, const surface *b, double t, rigid_numbers *m)
 {
     rigid_numbers of_a, of_b;
-    if (!place_at(a, t, &of_a) || !place_at(b, t, &of_b)) return false;
+    if (!course_place_at(a, surface_inner_maps(a), t, &of_a) ||
+        !course_place_at(b, surface_inner_maps(b), t, &of_b))
+        return false;
     for (int i = 0; i < 3; ++i) {
         m->shift[i] = 0;
         for (int k = 0; k < 3; ++k)

@@ -13,6 +13,10 @@ typedef struct rigid_numbers {
     double turn[3][3], shift[3];
 } rigid_numbers;
 
+/* Computes what the maps of s from number `inner` on do at t, which are rigid. False: a callback
+ * refuses. */
+bool course_place_at(const surface *s, size_t inner, double t, rigid_numbers *place);
+
 /* Sines below this give a line that is mostly rounding. */
 #define SINE_LEAST 0x1p-6
 

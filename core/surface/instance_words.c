@@ -7,6 +7,7 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "core/base/hash.h"
 #include "core/base/text.h"
 
 /* What an instance is called, what its create remarked, and what it was made from. */
@@ -114,8 +115,7 @@ void instance_hash_description(instance_description *description)
         const size_t rest = description->size - k;
         uint64_t word = 0;
         memcpy(&word, description->bytes + k, rest < sizeof word ? rest : sizeof word);
-        hash = (hash ^ word) * UINT64_C(0x9E3779B97F4A7C15);
-        hash ^= hash >> 32;
+        hash = hash_word(hash, word);
     }
     description->hash = hash;
 }

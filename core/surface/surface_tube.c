@@ -4,15 +4,12 @@
 
 #include <string.h>
 
+#include "core/surface/carried.h"
 #include "core/surface/region.h"
-#include "core/surface/surface_internal.h"
 
 bool surface_offers_tube(const surface *s)
 {
-    if (!IMP_OFFERS(s->type, tube)) return false;
-    for (size_t k = 0; k < s->map_count; ++k)
-        if (!IMP_OFFERS(s->maps[k].type, rigid) || !map_turns_exactly(&s->maps[k])) return false;
-    return true;
+    return IMP_OFFERS(s->type, tube) && carried_exactly(s);
 }
 
 /* Whether the model is finite, keeps the promises of imp_model, and does not depend on v. */

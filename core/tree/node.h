@@ -199,6 +199,11 @@ static inline bool node_bends(const node *n)
 /* Its remainder along a coordinate, without the ball. */
 static inline double node_blur(const node *n, int i) { return n->e[i] - n->ball; }
 
+static inline double node_blurs_sum(const node *n)
+{
+    return node_blur(n, 0) + node_blur(n, 1) + node_blur(n, 2);
+}
+
 /* Whether its remainder is more than this part of the distance that u and v move a point. */
 static inline bool node_blurs(const node *n, double part)
 {

@@ -53,4 +53,15 @@ static inline double vec3_norm(vec3 a)
 
 static inline double vec3_norm1(vec3 a) { return fabs(a.x[0]) + fabs(a.x[1]) + fabs(a.x[2]); }
 
+/* Returns some unit vector across an axis, which is not 0. */
+static inline vec3 vec3_across(vec3 axis)
+{
+    const int i = fabs(axis.x[0]) < fabs(axis.x[1]) ? (fabs(axis.x[0]) < fabs(axis.x[2]) ? 0 : 2)
+                                                    : (fabs(axis.x[1]) < fabs(axis.x[2]) ? 1 : 2);
+    vec3 e = {{0, 0, 0}};
+    e.x[i] = 1;
+    const vec3 across = vec3_cross(axis, e);
+    return vec3_scale(across, 1 / vec3_norm(across));
+}
+
 #endif
