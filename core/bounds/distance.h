@@ -97,7 +97,7 @@ imp_code distance_cut_ball(const struct distance_sides *of, int side, double gam
 /* --- Both sides ------------------------------------------------------------------------------- */
 
 /* What is kept of two surfaces, for each of them, so that it is computed once; begins as zeros. The
- * slips are over their common times and rounded up; 0: not computed yet. */
+ * slips are over the common times of both roots and rounded up; 0: not computed yet. */
 typedef struct distance_slips {
     float slip[2];          /* surface_slip along the other */
     float carry[2];         /* surface_carry_slip of the other, for all points of this one */

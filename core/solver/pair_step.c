@@ -60,11 +60,23 @@ static imp_code look_at_spines(const pair *p, candidate_pair *both, const pair_q
     return IMP_SUCCESS;
 }
 
+/* Forgets slips over the times of trees that the pair has no more. Where none is known, or none is
+ * of use, that holds at all times. */
+static void forget_slips(distance_slips *slips)
+{
+    for (int k = 0; k < 2; ++k) {
+        float *const of[] = {&slips->slip[k], &slips->carry[k], &slips->ball[k], &slips->orbit[k]};
+        for (size_t j = 0; j < sizeof of / sizeof *of; ++j)
+            if (*of[j] < INFINITY) *of[j] = 0;
+    }
+}
+
 void pair_look_anew(candidate_pair *both)
 {
     both->slips.searches = 0;
     both->slips.apart = both->slips.hope = 0;
     both->slips.looks = 0;
+    if (both->rests || both->screws) forget_slips(&both->slips);
 }
 
 /* --- Looks ------------------------------------------------------------------------------------ */

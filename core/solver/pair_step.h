@@ -47,8 +47,8 @@ typedef struct pair_question {
 imp_code pair_look(const pair *p, candidate_pair *both, const pair_question *q,
                    distance_outcome *seen, imp_error *error);
 
-/* Forgets what has been tried of a pair of surfaces, and what was found of some times alone: for a
- * search of another slice of time. */
+/* Forgets what has been tried of a pair of surfaces, and what was found of some times alone, slips
+ * of trees of one moment among it: for a search of another slice of time. */
 void pair_look_anew(candidate_pair *both);
 
 /* Returns the cut of the node that pair_look chose to be split alone; CUT_NONE: it chose none, or

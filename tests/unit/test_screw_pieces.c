@@ -513,12 +513,37 @@ START_TEST(slices_of_what_is_screwed_are_as_far_as_alone)
 }
 END_TEST
 
+/* A ball that is screwed along a bolt, so that a slice of time is searched at one moment; later it
+ * moves in another way, so that this slice's slips do not hold. */
+START_TEST(slips_of_one_slice_are_not_those_of_the_next)
+{
+    imp_registry *registry = query_registry();
+    imp_error error;
+    imp_scene *scene =
+        imp_scene_from_pair(registry, "thread height=8",
+                            "sphere radius=0.1 center=1.3,0,-0.1 ! motion-formula angle=6*t "
+                            "offset=[\"-0.05*(1-cos(5*max(t-0.5,0)))\",\"0\","
+                            "\"3*t/(2*pi)+0.03*(1-cos(20*max(t-0.5,0)))\"]",
+                            &error);
+    ck_assert_msg(scene != NULL, "%s", error.text);
+    const imp_clearance first = slice_of(scene, 0, 1, 2, 0), later = slice_of(scene, 0, 1, 2, 1),
+                        alone = slice_of(scene, 0.5, 1, 1, 0);
+    ck_assert_double_gt(first.lower, 0.1);
+    ck_assert_double_lt(later.upper, 0.05);
+    ck_assert_double_le(later.lower, alone.upper);
+    ck_assert_double_le(alone.lower, later.upper);
+    imp_scene_free(scene);
+    imp_registry_free(registry);
+}
+END_TEST
+
 int main(void)
 {
     const suite_loop loops[] = {{points_of_one_section_are_as_near, 1},
                                 {sections_need_one_lead_and_hand_and_claims, 1},
                                 {what_is_screwed_along_a_piece_rests, 1},
                                 {nuts_are_clear_of_their_bolts, NUTS},
-                                {slices_of_what_is_screwed_are_as_far_as_alone, 1}};
+                                {slices_of_what_is_screwed_are_as_far_as_alone, 1},
+                                {slips_of_one_slice_are_not_those_of_the_next, 1}};
     return suite_main_loops("screw pieces", loops, sizeof loops / sizeof *loops, NULL, NULL);
 }
