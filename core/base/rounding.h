@@ -64,6 +64,12 @@ static inline double double_above(double x)
     return x;
 }
 
+/* double_above in each lane, of positive numbers and NaN. */
+IMP_QUAD_INLINE imp_quad quad_above(imp_quad x)
+{
+    return (imp_quad)((imp_quad_mask)x - (x < imp_quad_all(INFINITY)));
+}
+
 /* Return x + y rounded up and x - y rounded down: never on the wrong side of the exact value,
  * whatever underflows. */
 static inline double sum_upper(double x, double y) { return double_above(x + y); }

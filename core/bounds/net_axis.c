@@ -16,12 +16,23 @@ typedef struct hulls {
     vec3 apart;
 } hulls;
 
+IMP_QUAD_INLINE vec3 lowest_with(const hulls *h, int quads_a, int quads_b, vec3 n)
+{
+    const lowest_points low = lowest_of_lanes(&h->b, &h->a, lanes_along(&h->b, quads_b, n),
+                                              lanes_along(&h->a, quads_a, vec3_scale(n, -1)));
+    return vec3_add(vec3_sub(low.p, low.q), h->apart);
+}
+
 IMP_QUAD_INLINE vec3 lowest_of(const void *set, vec3 n)
 {
     const hulls *h = set;
-    const lowest_points low = lowest_of_lanes(&h->b, &h->a, lanes_of_cloud(&h->b, h->quads_b, n),
-                                              lanes_of_cloud(&h->a, h->quads_a, vec3_scale(n, -1)));
-    return vec3_add(vec3_sub(low.p, low.q), h->apart);
+    return lowest_with(h, h->quads_a, h->quads_b, n);
+}
+
+/* Unrolled for bicubic patches. */
+IMP_QUAD_INLINE vec3 lowest_of_bicubic(const void *set, vec3 n)
+{
+    return lowest_with(set, 4, 4, n);
 }
 
 IMP_QUAD_INLINE bool seek(const node *a, const node *b, double t, vec3 *axis)
@@ -33,7 +44,9 @@ IMP_QUAD_INLINE bool seek(const node *a, const node *b, double t, vec3 *axis)
     h.apart = places_apart(f, g, t);
     cloud_at(f, t, &h.a);
     cloud_at(g, t, &h.b);
-    return gjk_search(lowest_of, &h, TUNING_GJK_GAP, axis);
+    return h.quads_a == 4 && h.quads_b == 4
+               ? gjk_search(lowest_of_bicubic, &h, TUNING_GJK_GAP, axis)
+               : gjk_search(lowest_of, &h, TUNING_GJK_GAP, axis);
 }
 
 IMP_QUAD_WIDE static bool seek_wide(const node *a, const node *b, double t, vec3 *axis)

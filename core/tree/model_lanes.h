@@ -78,31 +78,47 @@ IMP_QUAD_INLINE lanes_spread lanes_spread_of(const model_lanes *m, const double 
  * box, counts in full; the weight of acceleration was chosen by measurement. */
 static const double LENGTH_OF_SUM = 0.6;
 
+/* Returns lanes_sum of four quads. */
+IMP_QUAD_INLINE imp_quad lanes_sums(imp_quad x[4])
+{
+    imp_quad_transpose(x);
+    return x[0] + x[1] + x[2];
+}
+
+_Static_assert(offsetof(node, nonlinear_extent) == offsetof(node, extent) + 3 * sizeof(double) &&
+                   offsetof(node, time_remainder) == offsetof(node, extent) + 6 * sizeof(double),
+               "extents and time's remainder are side by side");
+
 IMP_QUAD_INLINE void lanes_take_spread(node *n, const model_lanes *m)
 {
     const imp_quad none = imp_quad_all(0), infinite = imp_quad_all(INFINITY);
     const lanes_spread s = lanes_spread_of(m, n->region.d);
+    imp_quad bend[4], reach[4];
     for (int j = 0; j < 3; ++j) {
-        const imp_quad bend = s.curved[j] + s.blame[j];
-        n->nonlinear_extent[j] = lanes_sum(bend);
-        n->extent[j] = lanes_sum(
-            imp_quad_all(LENGTH_OF_SUM) * (imp_quad_abs(m->b[j]) + s.curved[j]) + s.blame[j]);
-        if (j == PARAMETER_T)
-            n->time_remainder = lanes_sum(imp_quad_pick(m->rate[j] < infinite, s.blame[j], none));
+        bend[j] = s.curved[j] + s.blame[j];
+        reach[j] = imp_quad_all(LENGTH_OF_SUM) * (imp_quad_abs(m->b[j]) + s.curved[j]) + s.blame[j];
     }
+    bend[3] = reach[3] = imp_quad_pick(m->rate[PARAMETER_T] < infinite, s.blame[PARAMETER_T], none);
+    double *const extents = (double *)((char *)n + offsetof(node, extent));
+    imp_quad_store(extents, lanes_sums(reach));
+    imp_quad_store(extents + 3, lanes_sums(bend));
 }
 
+_Static_assert(sizeof(quadratic3) == 30 * sizeof(double), "coefficients are stored one by one");
+
+/* From the first on: a store writes one number behind its row, which the next store corrects. */
 IMP_QUAD_INLINE void lanes_take_polynomial(quadratic3 *f, const model_lanes *m)
 {
-    triple_store(f->a, m->a);
-    triple_store(f->bu, m->b[0]);
-    triple_store(f->bv, m->b[1]);
-    triple_store(f->bt, m->b[2]);
-    triple_store(f->quu, m->q[IMP_UU]);
-    triple_store(f->quv, m->q[IMP_UV]);
-    triple_store(f->qut, m->q[IMP_UT]);
-    triple_store(f->qvv, m->q[IMP_VV]);
-    triple_store(f->qvt, m->q[IMP_VT]);
+    double *const x = (double *)(void *)f;
+    imp_quad_store(x, m->a);
+    imp_quad_store(x + 3, m->b[0]);
+    imp_quad_store(x + 6, m->b[1]);
+    imp_quad_store(x + 9, m->b[2]);
+    imp_quad_store(x + 12, m->q[IMP_UU]);
+    imp_quad_store(x + 15, m->q[IMP_UV]);
+    imp_quad_store(x + 18, m->q[IMP_UT]);
+    imp_quad_store(x + 21, m->q[IMP_VV]);
+    imp_quad_store(x + 24, m->q[IMP_VT]);
     triple_store(f->qtt, m->q[IMP_TT]);
 }
 
@@ -126,13 +142,18 @@ IMP_QUAD_INLINE bool lanes_are_sound(const model_lanes *m)
     return !imp_quad_any(~fine);
 }
 
+_Static_assert(offsetof(node, lo) == offsetof(node, e) + 3 * sizeof(double) &&
+                   offsetof(node, hi) == offsetof(node, e) + 6 * sizeof(double),
+               "remainder and box are side by side");
+
 /* Fills n with bounded models that keep the promises of imp_model. */
 IMP_QUAD_INLINE void lanes_take(node *n, const model_lanes *m)
 {
     lanes_take_polynomial(&n->f, m);
-    triple_store(n->e, m->e);
-    memcpy(n->lo, &m->lo, sizeof n->lo);
-    memcpy(n->hi, &m->hi, sizeof n->hi);
+    double *const box = (double *)((char *)n + offsetof(node, e));
+    imp_quad_store(box, m->e);
+    imp_quad_store(box + 3, m->lo);
+    triple_store(n->hi, m->hi);
     lanes_take_spread(n, m);
     n->bounded = true;
 }

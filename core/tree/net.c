@@ -93,37 +93,31 @@ static void halve_plain(double *x, int n, int step, int side)
                 x[i * step] = 0.5 * (x[i * step] + x[(i + 1) * step]);
 }
 
-/* Halves the columns x of a bicubic patch, one after the other, into `half`, which may be x. */
-IMP_QUAD_INLINE void halve_bicubic_along(const double *x, int columns, parameter j, int side,
-                                         double *half)
+/* Halves a column x of a bicubic patch into `half`, which may be x. */
+IMP_QUAD_INLINE void halve_column(const double *x, parameter j, int side, double *half)
 {
-    for (int c = 0; c < columns; ++c, x += 16, half += 16) {
-        const halved_rows both = rows_halved(rows_along(rows_at(x), j));
-        rows_store(half, rows_along(rows_of_half(&both, side), j));
-    }
+    const halved_rows both = rows_halved(rows_along(rows_at(x), j));
+    rows_store(half, rows_along(rows_of_half(&both, side), j));
 }
 
+IMP_QUAD_INLINE void halve_columns(const double *x, int columns, parameter j, int side,
+                                   double *half)
+{
+    for (int c = 0; c < columns; ++c) halve_column(x + 16 * c, j, side, half + 16 * c);
+}
+
+/* Halves the columns x of a bicubic patch, one after the other, into `half`, which may be x. */
 IMP_QUAD_INLINE void halve_bicubic(const double *x, int columns, parameter j, int side,
                                    double *half)
 {
-    if (j == PARAMETER_U)
-        halve_bicubic_along(x, columns, PARAMETER_U, side, half);
+    if (j == PARAMETER_U && side == 0)
+        halve_columns(x, columns, PARAMETER_U, 0, half);
+    else if (j == PARAMETER_U)
+        halve_columns(x, columns, PARAMETER_U, 1, half);
+    else if (side == 0)
+        halve_columns(x, columns, PARAMETER_V, 0, half);
     else
-        halve_bicubic_along(x, columns, PARAMETER_V, side, half);
-}
-
-IMP_QUAD_WIDE static void halve_bicubic_wide(const double *x, int columns, parameter j, int side,
-                                             double *half)
-{
-    halve_bicubic(x, columns, j, side, half);
-}
-
-static void halve_plain_bicubic(const double *x, int columns, parameter j, int side, double *half)
-{
-    if (imp_quad_is_wide())
-        halve_bicubic_wide(x, columns, j, side, half);
-    else
-        halve_bicubic(x, columns, j, side, half);
+        halve_columns(x, columns, PARAMETER_V, 1, half);
 }
 
 /* Returns the mean of two numbers by their weights. */
@@ -241,6 +235,18 @@ static void halve_lines(const net *f, parameter j, int side, double *x, int colu
             x[c * f->stride + k] = x[c * f->stride + points - 1];
 }
 
+IMP_QUAD_NARROW static void halve_bicubic_narrow(const double *x, int columns, parameter j,
+                                                 int side, double *half)
+{
+    halve_bicubic(x, columns, j, side, half);
+}
+
+IMP_QUAD_WIDE static void halve_bicubic_wide(const double *x, int columns, parameter j, int side,
+                                             double *half)
+{
+    halve_bicubic(x, columns, j, side, half);
+}
+
 void net_halve_columns(const net *p, parameter j, int side, double *x, int columns)
 {
     if (p->degree[0] != 3 || p->degree[1] != 3)
@@ -249,8 +255,10 @@ void net_halve_columns(const net *p, parameter j, int side, double *x, int colum
         halve_bicubic_weighted_wide(x, columns, j, side);
     else if (p->is_weighted)
         halve_bicubic_weighted(x, columns, j, side);
+    else if (imp_quad_is_wide())
+        halve_bicubic_wide(x, columns, j, side, x);
     else
-        halve_plain_bicubic(x, columns, j, side, x);
+        halve_bicubic_narrow(x, columns, j, side, x);
 }
 
 double net_halving_upper(const net *p, parameter j, double most)
@@ -258,18 +266,48 @@ double net_halving_upper(const net *p, parameter j, double most)
     return halving_upper(halving_units(p, p->degree[j]), most);
 }
 
+/* Lemma. Errors are not negative, so that halving_upper, which is not 0, makes their sums positive.
+ * The fourth lane stays 0. */
+IMP_QUAD_INLINE void add_halving(const net *p, double units, net *half)
+{
+    const imp_quad_mask three = {-1, -1, -1, 0};
+    const imp_quad rounding = imp_quad_all(units * UNIT_ROUNDOFF) * imp_quad_load(p->most) +
+                              imp_quad_all(HALVING_UNDERFLOW);
+    const imp_quad sum = quad_above(imp_quad_load(p->error) + rounding);
+    imp_quad_store(half->error, (imp_quad)((imp_quad_mask)sum & three));
+}
+
+/* Halves a bicubic patch without weights. */
+IMP_QUAD_INLINE void halve_plain_net(const net *p, parameter j, int side, net *half)
+{
+    if (half != p) *half = *p; /* all fields but the numbers */
+    add_halving(p, halving_units(p, 3), half);
+    halve_bicubic(p->numbers, p->is_moving ? 6 : 3, j, side, half->numbers);
+}
+
+IMP_QUAD_NARROW static void halve_plain_net_narrow(const net *p, parameter j, int side, net *half)
+{
+    halve_plain_net(p, j, side, half);
+}
+
+IMP_QUAD_WIDE static void halve_plain_net_wide(const net *p, parameter j, int side, net *half)
+{
+    halve_plain_net(p, j, side, half);
+}
+
+static void halve_any_net(const net *p, parameter j, int side, net *half)
+{
+    if (half != p) memcpy(half, p, net_bytes(p));
+    net_halve_columns(p, j, side, half->numbers, p->is_moving ? 6 : 3);
+    add_halving(p, halving_units(p, p->degree[j]), half);
+}
+
 void net_halve(const net *p, parameter j, int side, net *half)
 {
-    const int columns = p->is_moving ? 6 : 3;
-    const bool is_plain_bicubic = p->degree[0] == 3 && p->degree[1] == 3 && !p->is_weighted;
-    if (is_plain_bicubic) {
-        if (half != p) *half = *p; /* all fields but the numbers */
-        halve_plain_bicubic(p->numbers, columns, j, side, half->numbers);
-    } else {
-        if (half != p) memcpy(half, p, net_bytes(p));
-        net_halve_columns(p, j, side, half->numbers, columns);
-    }
-    const double units = halving_units(p, p->degree[j]);
-    for (int i = 0; i < 3; ++i)
-        half->error[i] = sum_upper(p->error[i], halving_upper(units, p->most[i]));
+    if (p->degree[0] != 3 || p->degree[1] != 3 || p->is_weighted)
+        halve_any_net(p, j, side, half);
+    else if (imp_quad_is_wide())
+        halve_plain_net_wide(p, j, side, half);
+    else
+        halve_plain_net_narrow(p, j, side, half);
 }

@@ -21,9 +21,13 @@ IMP_QUAD_INLINE rows rows_at(const double *x)
         {imp_quad_load(x), imp_quad_load(x + 4), imp_quad_load(x + 8), imp_quad_load(x + 12)}};
 }
 
+/* Not in a loop: gcc 12 would make it a copy of memory, for which the rows go through the stack. */
 IMP_QUAD_INLINE void rows_store(double *x, rows r)
 {
-    for (int k = 0; k < 4; ++k) imp_quad_store(x + 4 * k, r.row[k]);
+    imp_quad_store(x, r.row[0]);
+    imp_quad_store(x + 4, r.row[1]);
+    imp_quad_store(x + 8, r.row[2]);
+    imp_quad_store(x + 12, r.row[3]);
 }
 
 /* Transposes a matrix of four rows. */
@@ -55,9 +59,8 @@ IMP_QUAD_INLINE halved_rows rows_halved(rows x)
 
 IMP_QUAD_INLINE rows rows_of_half(const halved_rows *x, int half)
 {
-    const imp_quad *r = x->row;
-    if (half == 0) return (rows){{r[0], r[1], r[2], r[3]}};
-    return (rows){{r[3], r[4], r[5], r[6]}};
+    const imp_quad *r = x->row + 3 * half;
+    return (rows){{r[0], r[1], r[2], r[3]}};
 }
 
 #endif

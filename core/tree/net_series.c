@@ -59,7 +59,16 @@ typedef struct series_sums {
     imp_quad speed;     /* sum of |Y| */
 } series_sums;
 
-/* Adds the coefficients of T_k(s_u). */
+/* Adds x to a sum that it begins if `first`. */
+IMP_QUAD_INLINE void add_to(imp_quad *sum, imp_quad x, bool first)
+{
+    if (first)
+        *sum = x;
+    else
+        *sum += x;
+}
+
+/* Adds the coefficients of T_k(s_u), from k = 0 on. */
 IMP_QUAD_INLINE void sums_add(series_sums *sum, int k, const rows *x, const rows *y)
 {
     imp_quad row = imp_quad_all(0);
@@ -69,16 +78,16 @@ IMP_QUAD_INLINE void sums_add(series_sums *sum, int k, const rows *x, const rows
         if (y != NULL) {
             const imp_quad change = imp_quad_abs(y->row[l]);
             size += change;
-            sum->speed += change;
+            add_to(&sum->speed, change, k + l == 0);
             if (k + l <= 1) sum->y[k][l] = y->row[l];
-            if (k + l == 2) sum->rest += change;
+            if (k + l == 2) add_to(&sum->rest, change, k == 0);
         }
         if (k + l <= 2) sum->x[k][l] = x->row[l];
-        if (k + l >= 3) sum->rest += size;
-        row += size;
-        sum->column[l] += size;
+        if (k + l >= 3) add_to(&sum->rest, size, y == NULL && k == 0);
+        add_to(&row, size, l == 0);
+        add_to(&sum->column[l], size, k == 0);
     }
-    if (k > 0) sum->along_u += imp_quad_all(k * k) * row;
+    if (k > 0) add_to(&sum->along_u, imp_quad_all(k * k) * row, k == 1);
 }
 
 IMP_QUAD_INLINE void sums_take(const net *p, double middle, double half, bool is_moving,
@@ -88,9 +97,7 @@ IMP_QUAD_INLINE void sums_take(const net *p, double middle, double half, bool is
     const columns still = columns_along_u(p->numbers);
     columns moving;
     if (is_moving) moving = columns_along_u(p->numbers + 3 * 16);
-    sum->rest = sum->speed = sum->along_u = none;
-    for (int l = 0; l < 4; ++l) sum->column[l] = none;
-    sum->y[0][0] = sum->y[0][1] = sum->y[1][0] = none;
+    sum->speed = sum->y[0][0] = sum->y[0][1] = sum->y[1][0] = none;
     SERIES_UNROLL
     for (int k = 0; k < 4; ++k) {
         rows x = row_of_series(&still, k), y;

@@ -4,30 +4,62 @@
 
 #include "core/witness/newton.h"
 
+#include <impinge/quad.h>
 #include <math.h>
-#include <string.h>
 
 #include "core/bounds/tuning.h"
 
 #define NEWTON_UNROLL _Pragma("GCC unroll 4")
 
+/* The derivatives by the four unknowns are side by side. To add -0 changes no number. */
+IMP_QUAD_INLINE void of_gap(vec3 apart, const vec3 by[NEWTON_UNKNOWNS],
+                            const double second[2][2][2], double gradient[NEWTON_UNKNOWNS],
+                            double hessian[NEWTON_UNKNOWNS][NEWTON_UNKNOWNS])
+{
+    imp_quad row[3];
+    NEWTON_UNROLL
+    for (int i = 0; i < 3; ++i) row[i] = (imp_quad){by[0].x[i], by[1].x[i], by[2].x[i], by[3].x[i]};
+    imp_quad_store(gradient, row[0] * imp_quad_all(apart.x[0]) + row[1] * imp_quad_all(apart.x[1]) +
+                                 row[2] * imp_quad_all(apart.x[2]));
+    NEWTON_UNROLL
+    for (int k = 0; k < NEWTON_UNKNOWNS; ++k) {
+        const double *bend = second[k / 2][k % 2];
+        const imp_quad sum = imp_quad_all(by[k].x[0]) * row[0] + imp_quad_all(by[k].x[1]) * row[1] +
+                             imp_quad_all(by[k].x[2]) * row[2];
+        imp_quad_store(hessian[k], sum + (k < 2 ? (imp_quad){-bend[0], -bend[1], -0.0, -0.0}
+                                                : (imp_quad){-0.0, -0.0, bend[0], bend[1]}));
+    }
+}
+
+IMP_QUAD_NARROW static void of_gap_narrow(vec3 apart, const vec3 by[NEWTON_UNKNOWNS],
+                                          const double second[2][2][2],
+                                          double gradient[NEWTON_UNKNOWNS],
+                                          double hessian[NEWTON_UNKNOWNS][NEWTON_UNKNOWNS])
+{
+    of_gap(apart, by, second, gradient, hessian);
+}
+
+IMP_QUAD_WIDE static void of_gap_wide(vec3 apart, const vec3 by[NEWTON_UNKNOWNS],
+                                      const double second[2][2][2],
+                                      double gradient[NEWTON_UNKNOWNS],
+                                      double hessian[NEWTON_UNKNOWNS][NEWTON_UNKNOWNS])
+{
+    of_gap(apart, by, second, gradient, hessian);
+}
+
 void newton_of_gap(vec3 apart, const vec3 by[NEWTON_UNKNOWNS], const double second[2][2][2],
                    double gradient[NEWTON_UNKNOWNS],
                    double hessian[NEWTON_UNKNOWNS][NEWTON_UNKNOWNS])
 {
-    for (int k = 0; k < NEWTON_UNKNOWNS; ++k) {
-        gradient[k] = vec3_dot(by[k], apart);
-        for (int l = 0; l <= k; ++l) {
-            double sum = vec3_dot(by[k], by[l]);
-            if (k / 2 == l / 2)
-                sum += k / 2 == 0 ? -second[0][k % 2][l % 2] : second[1][k % 2][l % 2];
-            hessian[k][l] = hessian[l][k] = sum;
-        }
-    }
+    if (imp_quad_is_wide())
+        of_gap_wide(apart, by, second, gradient, hessian);
+    else
+        of_gap_narrow(apart, by, second, gradient, hessian);
 }
 
 /* Solves h x = -g by Cholesky; false: h is not positive definite. */
-static bool solve(const double h[NEWTON_UNKNOWNS][NEWTON_UNKNOWNS], const double *g, double *x)
+IMP_QUAD_INLINE bool solve(const double h[NEWTON_UNKNOWNS][NEWTON_UNKNOWNS], const double *g,
+                           double *x)
 {
     double l[NEWTON_UNKNOWNS][NEWTON_UNKNOWNS];
     NEWTON_UNROLL
@@ -61,45 +93,42 @@ static bool solve(const double h[NEWTON_UNKNOWNS][NEWTON_UNKNOWNS], const double
     return true;
 }
 
-/* Removes unknown k from the system, so that its step is 0. */
-static void hold(double h[NEWTON_UNKNOWNS][NEWTON_UNKNOWNS], double *g, int k)
+/* Removes the unknowns of the mask from the system, so that their steps are 0. */
+static inline void hold(imp_quad_mask which, double h[NEWTON_UNKNOWNS][NEWTON_UNKNOWNS], double *g)
 {
-    for (int m = 0; m < NEWTON_UNKNOWNS; ++m) h[k][m] = h[m][k] = k == m;
-    g[k] = 0;
+    for (int k = 0; k < NEWTON_UNKNOWNS; ++k) {
+        if (which[k] == 0) continue;
+        for (int m = 0; m < NEWTON_UNKNOWNS; ++m) h[k][m] = h[m][k] = k == m;
+        g[k] = 0;
+    }
 }
 
 /* Solves for the step with `damping` added to the diagonal. False: there is none, or it
  * overflows. */
-static bool step(const newton_way *way, const double *y, double damping, double *next)
+IMP_QUAD_INLINE bool step(const newton_way *way, const double *from, double damping, double *next)
 {
-    const newton_bounds *b = way->bounds;
+    const imp_quad none = imp_quad_all(0), y = imp_quad_load(from);
+    const imp_quad lo = imp_quad_load(way->bounds->lo), hi = imp_quad_load(way->bounds->hi);
+    const imp_quad_mask low = y <= lo, high = y >= hi;
     double h[NEWTON_UNKNOWNS][NEWTON_UNKNOWNS], g[NEWTON_UNKNOWNS], move[NEWTON_UNKNOWNS];
-    bool held[NEWTON_UNKNOWNS];
-    memcpy(h, way->hessian, sizeof h);
-    memcpy(g, way->gradient, sizeof g);
     for (int k = 0; k < NEWTON_UNKNOWNS; ++k) {
+        imp_quad_store(h[k], imp_quad_load(way->hessian[k]));
         h[k][k] += damping;
-        held[k] = !(b->lo[k] < b->hi[k]) || (y[k] <= b->lo[k] && g[k] > 0) ||
-                  (y[k] >= b->hi[k] && g[k] < 0);
-        if (held[k]) hold(h, g, k);
     }
+    const imp_quad slope = imp_quad_load(way->gradient);
+    imp_quad_store(g, slope);
+    imp_quad_mask more = ~(lo < hi) | (low & (slope > none)) | (high & (slope < none)), held = more;
     for (int pass = 0; pass <= NEWTON_UNKNOWNS; ++pass) {
+        if (imp_quad_any(more)) hold(more, h, g);
         if (!solve((const double(*)[NEWTON_UNKNOWNS])h, g, move)) return false;
-        bool more = false;
-        for (int k = 0; k < NEWTON_UNKNOWNS; ++k) {
-            if (held[k] ||
-                !((y[k] <= b->lo[k] && move[k] < 0) || (y[k] >= b->hi[k] && move[k] > 0)))
-                continue;
-            held[k] = more = true;
-            hold(h, g, k);
-        }
-        if (!more) break;
+        const imp_quad by = imp_quad_load(move);
+        more = ~held & ((low & (by < none)) | (high & (by > none)));
+        if (!imp_quad_any(more)) break;
+        held |= more;
     }
-    for (int k = 0; k < NEWTON_UNKNOWNS; ++k) {
-        const double to = y[k] + (held[k] ? 0 : move[k]);
-        if (!(to - to == 0)) return false;
-        next[k] = to < b->lo[k] ? b->lo[k] : to > b->hi[k] ? b->hi[k] : to;
-    }
+    const imp_quad to = y + imp_quad_pick(held, none, imp_quad_load(move));
+    if (imp_quad_any(~(to - to == none))) return false;
+    imp_quad_store(next, imp_quad_pick(to < lo, lo, imp_quad_pick(to > hi, hi, to)));
     return true;
 }
 
@@ -115,7 +144,7 @@ newton_way newton_begin(const newton_bounds *bounds)
     return (newton_way){.bounds = bounds, .damping = DAMPING};
 }
 
-bool newton_try(newton_way *way, const double *y, double *next)
+IMP_QUAD_INLINE bool try_step(newton_way *way, const double *y, double *next)
 {
     double scale = 0;
     for (int k = 0; k < NEWTON_UNKNOWNS; ++k)
@@ -126,6 +155,21 @@ bool newton_try(newton_way *way, const double *y, double *next)
         way->damping *= DAMPING_MORE;
     }
     return false;
+}
+
+IMP_QUAD_NARROW static bool try_step_narrow(newton_way *way, const double *y, double *next)
+{
+    return try_step(way, y, next);
+}
+
+IMP_QUAD_WIDE static bool try_step_wide(newton_way *way, const double *y, double *next)
+{
+    return try_step(way, y, next);
+}
+
+bool newton_try(newton_way *way, const double *y, double *next)
+{
+    return imp_quad_is_wide() ? try_step_wide(way, y, next) : try_step_narrow(way, y, next);
 }
 
 double newton_promise(const newton_way *way, const double *y, const double *next)

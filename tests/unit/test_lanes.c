@@ -38,6 +38,11 @@
 #define net_velocity_at narrow_net_velocity_at
 #define contact_estimate_find narrow_contact_estimate_find
 #define net_nearest narrow_net_nearest
+#define newton_of_gap narrow_newton_of_gap
+#define newton_begin narrow_newton_begin
+#define newton_try narrow_newton_try
+#define newton_promise narrow_newton_promise
+#define newton_judge narrow_newton_judge
 #define net_axis_seek narrow_net_axis_seek
 #define net_axis_cut narrow_net_axis_cut
 #define net_model_axis_seek narrow_net_model_axis_seek
@@ -58,6 +63,7 @@
 #include "core/tree/net.c"
 #include "core/witness/contact_estimate.c"
 #include "core/witness/net_eval.c"
+#include "core/witness/newton.c"
 #define take take_series
 #define take_wide take_series_wide
 #include "core/tree/net_series.c"
