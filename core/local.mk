@@ -48,6 +48,7 @@ core_surface = \
     core/surface/commute.c core/surface/commute.h \
     core/surface/formula_text.c core/surface/formula_text.h \
     core/surface/held.c core/surface/held.h core/surface/held_place.c \
+    core/surface/held_values.c core/surface/held_values.h \
     core/surface/instance.c core/surface/instance.h \
     core/surface/instance_words.c \
     core/surface/region.c core/surface/region.h \

@@ -41,6 +41,7 @@ check_suites = \
     tests/unit/test_slip_planes \
     tests/unit/test_aside \
     tests/unit/test_held \
+    tests/unit/test_held_values \
     tests/unit/test_tubes \
     tests/unit/test_glances \
     tests/unit/test_screw_slips \

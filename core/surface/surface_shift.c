@@ -87,6 +87,7 @@ imp_status surface_extent_find(const surface *s, const value_box *box, surface_e
     imp_status status = IMP_STATUS_OK;
     for (int i = 0; i < 3; ++i) extent->lo[i] = INFINITY, extent->hi[i] = -INFINITY;
     extent->speed = 0;
+    extent->held = (held_maps){0, 0};
     surface *own = surface_new_of(p->inner != NULL ? p->inner : p);
     if (own == NULL || surface_divide(own) != IMP_SUCCESS) {
         surface_free(own);
@@ -257,7 +258,7 @@ static void set_unbounded(const value_box *box, double *shift, surface_image *im
 {
     for (size_t k = 0; k < box->count; ++k) shift[k] = INFINITY;
     image->follows_time = true;
-    image->drift = INFINITY;
+    image->drift = image->slip = INFINITY;
     for (int i = 0; i < 3; ++i) image->lo[i] = -INFINITY, image->hi[i] = INFINITY;
 }
 
@@ -272,7 +273,11 @@ static void set_unbounded(const value_box *box, double *shift, surface_image *im
  * parameter that the map follows. Two products and a sum for each map.
  *
  * Likewise for time: from one time in question to another, stages that follow it move points by at
- * most their speed times the length of the times; `drift` sums these as shifts are summed. */
+ * most their speed times the length of the times; `drift` sums these as shifts are summed.
+ *
+ * Held maps. Under these the surface at p has, for each of its points, one within the slip at c
+ * (surface_held_values): with that one for x(c), the above begins with a distance of the slip,
+ * which later maps stretch, and goes on with the first map that is not held. */
 PAD_COVERS(8, 2 + 1);
 imp_status surface_shift_trace(const surface *s, const surface_extent *extent, size_t left_out,
                                const value_box *box, double *shift, surface_image *image,
@@ -286,6 +291,7 @@ imp_status surface_shift_trace(const surface *s, const surface_extent *extent, s
     for (size_t k = 0; k < box->count; ++k) shift[k] = 0;
     bool is_timed = s->origin->inner == NULL && !is_timeless(s->origin);
     const double span = sum_upper(box->t_end, -box->t_start);
+    image->slip = extent->held.slip;
     image->drift = s->origin->inner == NULL && extent->speed != 0 ? extent->speed * span : 0;
     if (s->origin->inner != NULL)
         shift[s->origin->clock] =
@@ -303,6 +309,8 @@ imp_status surface_shift_trace(const surface *s, const surface_extent *extent, s
         if (to.stretch != 1) image->drift = padded_upper(image->drift * to.stretch, 8);
         if (p->inner == NULL && to.moves)
             image->drift = padded_upper(image->drift + to.speed * span, 8) + PRODUCTS_UNDERFLOW;
+        if (j < extent->held.count) continue;
+        if (to.stretch != 1) image->slip = padded_upper(image->slip * to.stretch, 8);
         for (size_t k = 0; k < box->count; ++k) {
             if (to.stretch != 1) shift[k] = padded_upper(shift[k] * to.stretch, 8);
             if (p->inner != NULL && p->clock == k)

@@ -23,9 +23,10 @@ typedef struct value_box {
 typedef struct surface_extent {
     double lo[3], hi[3]; /* infinite: it is not bounded */
     double speed;        /* length per unit of its clock, or of time if it follows that */
+    held_maps held;      /* maps by which no value shifts it but by their slip (held_values.h) */
 } surface_extent;
 
-/* A status other than OK is a fault of the type. */
+/* No maps are held. A status other than OK is a fault of the type. */
 imp_status surface_extent_find(const surface *s, const value_box *box, surface_extent *extent);
 
 /* A surface that time moves by no more than this counts as one that does not follow it. Rates of
@@ -35,12 +36,15 @@ imp_status surface_extent_find(const surface *s, const value_box *box, surface_e
 
 /* Bounds, for the surface without its last `left_out` maps, shift[k] >= the length by which any
  * point of it moves for parameter k alone, from the values `at` to any in the box: together they
- * move it by the sum at most. `image` becomes a box that holds it at all times and values, and
+ * move it by the sum at most. Where maps are held, this is said of the surface, not of its points:
+ * at any values each point is within the sum, and the slip, of one of the surface at the values
+ * `at`. `image` becomes a box that holds it at all times and values, and
  * tells whether it depends on time. The extent is that of this box or of a larger one. INFINITY: no
  * bound. A status other than OK is a fault of a map. */
 typedef struct surface_image {
     double lo[3], hi[3];
     double drift;      /* how far the times move any point, at most; length */
+    double slip;       /* of maps that are held, as later ones stretch it; length */
     bool follows_time; /* drift exceeds SURFACE_STILL, or it does not exist at all times */
 } surface_image;
 imp_status surface_shift_upper(const surface *s, const surface_extent *extent, size_t left_out,

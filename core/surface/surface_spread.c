@@ -30,7 +30,9 @@
  *   second = sum_j [ (|B| + |Q| + 2 E) |d_{j-1}| + (|Q| + 2 E) r_j + |q| + 2 e ],
  *
  * in which r_j >= |x_{j-1} - pivot| comes from the ball around the surface before the map, and
- * |d_{j-1}| <= sum of |g_i| + second_i of the maps before, |g_i| <= |b| + |B| r_i.
+ * |d_{j-1}| <= sum of |g_i| + second_i of the maps before, |g_i| <= |b| + |B| r_i. Where maps
+ * before the first that is taken are held, x(c) is the companion of x(p), so that d begins with the
+ * slip of these, as the maps between stretch it, and second with as much.
  *
  * The ways are computed at one point z and time m: with z_{j-1} the point that the maps at m and
  * the middle values take to z. A point x within `radius` of z at m has x_{j-1}(m) within `radius`
@@ -182,18 +184,20 @@ bool surface_spread_make(const surface *s, const surface_extent *extent, size_t 
                          surface_spread *to)
 {
     const size_t count = s->map_count - left_out;
-    spread_sums sums = {.drift = extent->speed};
+    spread_sums sums = {.second = extent->held.slip, .drift = extent->speed};
     to->first = to->count = count;
     to->second = 0;
     if (count > SPREAD_MAPS_MAX || (s->origin->inner != NULL && s->origin->clock != swept))
         return false;
     for (size_t j = 0; j < count; ++j) {
         const shared_instance *p = s->maps[j].origin;
-        const bool is_free = p->inner != NULL && p->clock != swept;
-        if (is_free && to->first == count) to->first = j;
+        const bool is_clocked = p->inner != NULL && p->clock != swept;
+        const bool is_held = j < extent->held.count;
+        if (is_clocked && !is_held && to->first == count) to->first = j;
         if (j >= to->first && !take_map(s, j, box, swept, &reaches[j], &to->maps[j], &sums))
             return false;
-        sums.drift = sums.drift * reaches[j].stretch + (is_free ? 0 : reaches[j].speed);
+        sums.drift = sums.drift * reaches[j].stretch + (is_clocked ? 0 : reaches[j].speed);
+        if (!is_held && to->first == count) sums.second *= reaches[j].stretch;
     }
     to->second = padded_upper(sums.second, SUMS_PAD);
     return to->second < INFINITY && sums.drift < INFINITY;

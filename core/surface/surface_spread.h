@@ -41,9 +41,11 @@ typedef struct surface_spread {
 
 enum { SPREAD_MAPS_MAX = 64 };
 
-/* Makes the spread of a surface without its last `left_out` maps. Time is that of queries: what
- * follows the parameter `swept` moves with it; SIZE_MAX: none does. to->maps has room for all maps.
- * False: nothing is known, for instance since a map does not turn exactly. */
+/* Makes the spread of a surface without its last `left_out` maps. Where some are held, it tells of
+ * companions: each point of the surface at any values has one, such an x, at the middle values, and
+ * the rest has the slip. Time is that of queries: what follows the parameter `swept` moves with it;
+ * SIZE_MAX: none does. to->maps has room for all maps. False: nothing is known, for instance since
+ * a map does not turn exactly. */
 bool surface_spread_make(const surface *s, const surface_extent *extent, size_t left_out,
                          const value_box *box, size_t swept, const map_reach *reaches,
                          surface_spread *to);

@@ -46,12 +46,12 @@ static void settle(imp_survey *s, const survey_box *box)
                       IMP_VERDICT_CLEAR, box->key);
 }
 
-static const double LEAST_TOLERANCE = 1e-9;      /* that a query takes */
-static const double DECIDING_TOLERANCE = 2.5e-7; /* a quarter of what tolerances_nearly leaves */
+static const double LEAST_TOLERANCE = 1e-9; /* that a query takes */
+#define DECIDING_TOLERANCE SURVEY_DECIDING_TOLERANCE
 
-/* Whether a box is to be halved whose parameters shift the bodies by this. A smaller shift, below
- * 2e-90, may be that of a box of which no range can be halved. */
-static bool is_divisible(double total) { return total > 4 * SURFACE_STILL; }
+/* Whether a box is to be halved whose parameters shift the bodies by this, but for slips. A smaller
+ * shift, below 2e-90, may be that of a box of which no range can be halved. */
+static bool is_divisible(double shifts) { return shifts > 4 * SURFACE_STILL; }
 
 static bool is_requirement_open(const imp_survey *s)
 {
@@ -62,15 +62,15 @@ static bool is_requirement_open(const imp_survey *s)
 /* Returns the tolerance of the bracket at the middle. A bracket much narrower than the shift gains
  * nothing. Where a distance is required, small boxes have brackets that decide. Any tolerance is
  * sound. */
-static double tolerance_of(const imp_survey *s, double total)
+static double tolerance_of(const imp_survey *s, double shifts)
 {
     const double own = 0.5 * s->question.clearance.tolerance, most = 0.25;
     const double usual = own > LEAST_TOLERANCE ? own : LEAST_TOLERANCE;
-    if (!is_divisible(total)) return usual;
+    if (!is_divisible(shifts)) return usual;
     const double least =
         is_requirement_open(s) && DECIDING_TOLERANCE < usual ? DECIDING_TOLERANCE : usual;
     const double wanted =
-        s->best.distance < INFINITY ? 0.5 * total / (s->best.distance + total) : most;
+        s->best.distance < INFINITY ? 0.5 * shifts / (s->best.distance + shifts) : most;
     return wanted > least ? wanted : least;
 }
 
@@ -82,8 +82,8 @@ static double tolerance_of(const imp_survey *s, double total)
  * 1 - h / upper, it is at least h if the upper bound stays as it is; with R = 0.25e-6, it is above
  * h for any upper bound above D. An upper bound of at most D violates the requirement. So two more
  * brackets decide: if D >= 2^-277, the 0.5e-6 D between h and the distance that is enough covers a
- * shift of 4 SURFACE_STILL = 2^-298. For smaller D they may not; such a box is halved where it can
- * be, else it is unresolved. */
+ * shift of 4 SURFACE_STILL = 2^-298, and two slips (survey_pairs.c). For smaller D they may not;
+ * such a box is halved where it can be, else it is unresolved. */
 static double tolerance_deciding(const imp_survey *s, double before, double upper)
 {
     const double required = s->question.clearance.required;
@@ -243,23 +243,24 @@ static imp_code ask_middle(imp_survey *s, survey_box *box, imp_scene *scene, dou
 }
 
 /* Whether only a narrower bracket at the middle can tell if the box is as far as required. */
-static bool must_narrow(const imp_survey *s, const survey_box *box, double total, double tolerance)
+static bool must_narrow(const imp_survey *s, const survey_box *box, double shifts, double tolerance)
 {
-    return is_requirement_open(s) && !is_divisible(total) && tolerance > DECIDING_TOLERANCE &&
+    return is_requirement_open(s) && !is_divisible(shifts) && tolerance > DECIDING_TOLERANCE &&
            !(box->key >= survey_distance_enough(s));
 }
 
-static imp_code measure_middle(imp_survey *s, survey_box *box, imp_scene *scene, double total,
-                               box_state *state, imp_error *error)
+static imp_code measure_middle(imp_survey *s, survey_box *box, imp_scene *scene,
+                               const box_bounds *bounds, box_state *state, imp_error *error)
 {
-    const bool is_moved = total > 0 && !box_is_unmoved(&s->pairs.at[box->pair]);
-    double tolerance = tolerance_of(s, total);
+    const double total = bounds->total, shifts = bounds->shifts;
+    const bool is_moved = shifts > 0 && !box_is_unmoved(&s->pairs.at[box->pair]);
+    double tolerance = tolerance_of(s, shifts);
     imp_clearance found, nearest;
     bool is_nearer = false;
     imp_code code =
         ask_middle(s, box, scene, total, tolerance, &found, &nearest, &is_nearer, error);
     while (code == IMP_SUCCESS && !box_is_limit(found.reason) &&
-           must_narrow(s, box, total, tolerance)) {
+           must_narrow(s, box, shifts, tolerance)) {
         tolerance = tolerance_deciding(s, tolerance, found.upper);
         code = ask_middle(s, box, scene, total, tolerance, &found, &nearest, &is_nearer, error);
     }
@@ -292,14 +293,14 @@ static bool is_better_halved(const imp_survey *s, const survey_box *box, double 
 static imp_code measure_distance(imp_survey *s, survey_box *box, const box_bounds *bounds,
                                  box_state *state, imp_error *error)
 {
-    const bool is_moved = bounds->total > 0 && !box_is_unmoved(&s->pairs.at[box->pair]);
+    const bool is_moved = bounds->shifts > 0 && !box_is_unmoved(&s->pairs.at[box->pair]);
     imp_scene *scene;
     imp_code code = box_scene(s, box, &scene, error);
     if (code != IMP_SUCCESS) return code;
     if (is_moved && !is_better_halved(s, box, bounds->total))
         code = prove_enough(s, box, scene, bounds, state, error);
     if (code == IMP_SUCCESS && *state == BOX_OPEN && !(box->key >= survey_distance_enough(s)))
-        code = measure_middle(s, box, scene, bounds->total, state, error);
+        code = measure_middle(s, box, scene, bounds, state, error);
     imp_scene_free(scene);
     return code;
 }

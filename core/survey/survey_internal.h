@@ -25,6 +25,9 @@
  * nothing is near before t', nothing comes nearer than gamma_clear before t' at any p; and a least
  * distance at c, less the shift, bounds that at p.
  *
+ * Maps that only turn a surface within itself shift none of it but by a slip, which is part of the
+ * shift: each of its points at p has one at c within that (held_values.h).
+ *
  * Nobody is inside a solid body at p who is not at c: on the way from c to p, which stays in the
  * box, no surfaces meet.
  *
@@ -166,6 +169,7 @@ imp_code survey_choose_swept(imp_survey *s, imp_error *error);
 typedef struct box_bounds {
     const double *lo, *hi; /* ranges of the parameters */
     double total;          /* >= shift of all parameters and both bodies together; length */
+    double shifts;         /* the part of it that halves of the box have less of; length */
     double apart;          /* <= distance of the bodies at all values; length */
     double t_start, t_end; /* the times of these bounds */
     bool follows_time;     /* some surface does (surface_shift.h); else */
@@ -212,6 +216,9 @@ void survey_records_clear(survey_records *records);
 
 /* Goes on from what imp_survey_save returned: the first boxes of pairs give way to those left. */
 imp_code survey_load(imp_survey *s, const char *text, imp_error *error);
+
+/* A quarter of what tolerances_nearly leaves: brackets as narrow decide a required distance. */
+#define SURVEY_DECIDING_TOLERANCE 2.5e-7
 
 /* Returns the distance from which on a box needs no further search. */
 double survey_distance_enough(const imp_survey *s);

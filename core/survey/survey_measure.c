@@ -22,6 +22,7 @@ static void join_image(surface_image *all, const surface_image *one)
     }
     all->follows_time = all->follows_time || one->follows_time;
     all->drift = greater(all->drift, one->drift);
+    all->slip = greater(all->slip, one->slip);
 }
 
 /* Returns a lower bound of the distance of two boxes: the widest gap along a coordinate. */
@@ -45,7 +46,7 @@ static imp_code measure_body(imp_survey *s, size_t body, size_t left_out, const 
     double *one = s->box.shift[2];
     for (size_t j = 0; j < s->parameters; ++j) most[j] = 0;
     all->follows_time = false;
-    all->drift = 0;
+    all->drift = all->slip = 0;
     for (int i = 0; i < 3; ++i) all->lo[i] = INFINITY, all->hi[i] = -INFINITY;
     for (size_t k = 0; k < scene_surface_count(s->scene, body); ++k) {
         const surface *of = scene_surface(s->scene, body, k);
@@ -63,8 +64,8 @@ static imp_code measure_body(imp_survey *s, size_t body, size_t left_out, const 
 }
 
 /* Roundings of the total: the sum over two bodies 1, over the parameters SCENE_PARAMETERS_MAX, the
- * drift 1. */
-PAD_COVERS(64, 1 + SCENE_PARAMETERS_MAX + 1);
+ * drift 1, slips 2. */
+PAD_COVERS(64, 1 + SCENE_PARAMETERS_MAX + 3);
 
 /* s->box.shift[0][k] becomes what parameter k shifts both bodies by; 0 for one that is swept. */
 imp_code survey_measure(imp_survey *s, const survey_box *box, size_t left_out, double t_start,
@@ -91,7 +92,8 @@ imp_code survey_measure(imp_survey *s, const survey_box *box, size_t left_out, d
         bounds->total += s->box.shift[0][j];
     }
     if (pair->swept != SIZE_MAX) bounds->total += pair->drift;
-    bounds->total = padded_upper(bounds->total, 64);
+    bounds->shifts = bounds->total;
+    bounds->total = padded_upper(bounds->total + (image[0].slip + image[1].slip), 64);
     bounds->follows_time = image[0].follows_time || image[1].follows_time;
     bounds->drift = sum_upper(image[0].drift, image[1].drift);
     bounds->apart = apart_lower(&image[0], &image[1]);

@@ -7,6 +7,7 @@
 
 #include "core/base/status.h"
 #include "core/common/array.h"
+#include "core/surface/held_values.h"
 #include "core/survey/box_question.h"
 
 /* --- Which parameters move two bodies --------------------------------------------------------- */
@@ -111,18 +112,41 @@ static imp_code make_room_for_extents(imp_survey *s, imp_error *error)
     return s->extents.of != NULL ? IMP_SUCCESS : error_set_memory(error);
 }
 
+/* What slips of held maps are at most: small beside what tells contacts from what is clear, and, of
+ * distances, beside what brackets and requirements are told apart by. */
+#define SLIP_OF_CONTACT 0x1p-7
+#define SLIP_OF_DISTANCE 0x1p-10
+
+static double slip_enough(const imp_survey *s)
+{
+    const survey_question *q = &s->question;
+    const double narrow = q->clearance.tolerance < SURVEY_DECIDING_TOLERANCE
+                              ? q->clearance.tolerance
+                              : SURVEY_DECIDING_TOLERANCE;
+    return q->is_distance ? SLIP_OF_DISTANCE * narrow * survey_distance_touching(s)
+                          : SLIP_OF_CONTACT * (q->gamma - q->gamma_clear);
+}
+
+static imp_code find_extent(const imp_survey *s, const surface *of, const value_box *whole,
+                            surface_extent *extent, imp_error *error)
+{
+    imp_status status = surface_extent_find(of, whole, extent);
+    if (status == IMP_STATUS_OK && s->proof == NULL)
+        status = surface_held_values(of, extent, whole, slip_enough(s), &extent->held);
+    if (status == IMP_STATUS_OK) return IMP_SUCCESS;
+    surface_fault(of, error, ": %s", surface_status_message(of, status).text);
+    return surface_set_code(status, error);
+}
+
 static imp_code find_extents(imp_survey *s, double t_start, double t_end, imp_error *error)
 {
     const value_box whole = {s->parameters, s->lo, s->hi, s->lo, t_start, t_end};
     for (size_t j = 0; j < asked_count(s); ++j) {
         const size_t body = asked_body(s, j);
         for (size_t k = 0; k < scene_surface_count(s->scene, body); ++k) {
-            const surface *of = scene_surface(s->scene, body, k);
-            const imp_status status =
-                surface_extent_find(of, &whole, &s->extents.of[s->extents.first[body] + k]);
-            if (status == IMP_STATUS_OK) continue;
-            surface_fault(of, error, ": %s", surface_status_message(of, status).text);
-            return surface_set_code(status, error);
+            const imp_code code = find_extent(s, scene_surface(s->scene, body, k), &whole,
+                                              &s->extents.of[s->extents.first[body] + k], error);
+            if (code != IMP_SUCCESS) return code;
         }
     }
     return IMP_SUCCESS;
@@ -163,6 +187,8 @@ static imp_code choose_swept(imp_survey *s, const survey_box *box, double t_star
 {
     survey_pair *pair = &s->pairs.at[box->pair];
     box_bounds bounds;
+    pair->swept = SIZE_MAX;
+    pair->drift = 0;
     if (pair->body[0] == SURVEY_ALL_BODIES) return IMP_SUCCESS;
     imp_code code = survey_measure(s, box, 0, t_start, t_end, &bounds, error);
     if (code != IMP_SUCCESS || bounds.follows_time) return code;

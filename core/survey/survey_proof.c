@@ -7,6 +7,7 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "core/base/fp_mode.h"
 #include "core/base/status.h"
 #include "core/common/array.h"
 
@@ -67,7 +68,12 @@ imp_code imp_survey_keep_proof(imp_survey *s, imp_error *error)
         return error_set(error, IMP_ERROR_USAGE,
                          "proof: got a survey of two bodies, must be one of all");
     if (s->proof == NULL) s->proof = calloc(1, sizeof *s->proof);
-    return s->proof != NULL ? IMP_SUCCESS : error_set_memory(error);
+    if (s->proof == NULL) return error_set_memory(error);
+    /* A certificate bounds each point at all values of a box: no maps are held. */
+    const fp_environment environment = fp_environment_enter();
+    const imp_code code = survey_choose_swept(s, error);
+    fp_environment_leave(&environment);
+    return code;
 }
 
 static kept_box *box_of(survey_proof *p, uint64_t number)

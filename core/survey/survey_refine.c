@@ -52,6 +52,7 @@ imp_code imp_survey_refine(imp_survey *s, double gamma, double gamma_clear, imp_
         s->question.gamma_clear = s->question.options.gamma_clear =
             tolerances_clear(gamma, gamma_clear);
         if (!is_clear) code = begin_at(s, survey_time_lower(s), error);
+        if (code == IMP_SUCCESS && !is_clear) code = survey_choose_swept(s, error);
         s->failed = code != IMP_SUCCESS;
     }
     fp_environment_leave(&environment);

@@ -347,7 +347,7 @@ three() {
         json '.lower <= 1.1 and .lower >= 1.04 and (.parameters | keys | length == 6) and
             .parameters["tolerance#4"] > 0.3'
     done
-    run -3 "$IMPINGE" clearance 'sphere ! tolerance offset=0.4 angle=0.01' 'sphere center=3.5,0,0' --max-boxes 3
+    run -3 "$IMPINGE" clearance 'ellipsoid radii=1,0.9,1 ! tolerance offset=0.4 angle=0.01' 'sphere center=3.5,0,0' --max-boxes 3
     [[ $output == *'  share '*' is done: nothing there is nearer, to within --tolerance'* ]]
     [[ ${lines[-1]} == *"'tolerance#"*'(which a map has of its own: impinge-scene(5)), or a larger --tolerance'* ]]
     fails 4 'has clocks of its own; leave it out' \

@@ -56,6 +56,40 @@ static void add_arm(bench_cases *list, int joints, double c)
     free(ranges);
 }
 
+/* A spindle that turns all around by one parameter, slides in its bore by time, or tilts by another
+ * one beside a ball: what the parameter turns is round, so that nothing shows. */
+#define SPINDLE_TURNS "{\"type\":\"rotate\",\"axis\":[0,0,1],\"rate\":1,\"clock\":\"c\"}"
+#define SPINDLE_CAN(NUMBERS) "{\"type\":\"cylinder\"," NUMBERS ",\"ends\":true}"
+
+static const struct spindle {
+    const char *name, *can, *moves, *beside;
+    double radius; /* of what is beside it, less c or more */
+    int sign;
+} spindles[] = {{"spindle in a bore", SPINDLE_CAN("\"radius\":0.2"),
+                 "{\"type\":\"translate\",\"velocity\":[0,0,1]}",
+                 "\"type\":\"cylinder\",\"radius\":", 0.2, 1},
+                {"spindle that tilts", SPINDLE_CAN("\"radius\":0.2,\"center\":[0,0,-0.7]"),
+                 "{\"type\":\"rotate\",\"axis\":[0,1,0],\"rate\":1,\"clock\":\"b\"}",
+                 "\"type\":\"sphere\",\"center\":[0,2.2,-0.5],\"radius\":", 2, -1}};
+enum { SPINDLES = sizeof spindles / sizeof *spindles, SPINDLE_GAPS = 3 };
+
+static void add_spindle(bench_cases *list, const struct spindle *of, double c)
+{
+    char *text = bench_text(
+        "{\"parameters\":{\"c\":[-3,3.2],\"b\":[-1.5,1.4]},\"bodies\":[{\"surfaces\":[%s],"
+        "\"maps\":[" SPINDLE_TURNS ",%s]},{\"surfaces\":[{%s%.17g}]}]}",
+        of->can, of->moves, of->beside, of->radius + of->sign * c);
+    bench_begin(list, c / 2, -1, "%s, c = %g", of->name, c);
+    bench_add_text(list, text);
+}
+
+static void add_spindles(bench_cases *list)
+{
+    static const double apart[SPINDLE_GAPS] = {1e-1, 1e-2, 1e-3};
+    for (size_t k = 0; k < SPINDLES; ++k)
+        for (int j = 0; j < SPINDLE_GAPS; ++j) add_spindle(list, &spindles[k], apart[j]);
+}
+
 /* Gaps for each number of joints; the least ends in seconds. */
 static const double gaps[JOINTS_MAX][GAPS] = {{1e-1, 1e-2, 1e-3, 1e-4},
                                               {1e-1, 1e-2, 1e-3, 1e-4},
@@ -66,6 +100,7 @@ static exit_status build(bench_cases *list, const bench_request *request)
 {
     for (int joints = 1; joints <= JOINTS_MAX; ++joints)
         for (size_t k = 0; k < GAPS; ++k) add_arm(list, joints, gaps[joints - 1][k]);
+    add_spindles(list);
     arm_add_pairs(list);
     return bench_built(list, request);
 }
@@ -120,7 +155,7 @@ static size_t find(const bench_result *results, size_t count, bench_finding *fin
     size_t found = 0;
     for (size_t joints = 1; joints <= JOINTS_MAX && joints * GAPS <= count; ++joints)
         found += find_exponent(results + (joints - 1) * GAPS, joints, &findings[found]);
-    if (count == JOINTS_MAX * GAPS + ARM_HARD + ARM_DEPTHS)
+    if (count == JOINTS_MAX * GAPS + SPINDLES * SPINDLE_GAPS + ARM_HARD + ARM_DEPTHS)
         found += find_arm(results + count - ARM_DEPTHS, &findings[found]);
     return found;
 }
@@ -131,8 +166,8 @@ static const bench_method *const methods[] = {&models, NULL};
 const bench_set bench_parameters = {
     "parameters",
     "A ball on an arm of length 1 at all angles of 1 to 4 joints, each over 1 rad: proved not to\n"
-    "touch a ball that is c away from it where it is nearest. gamma c / 2. Then the pairs of "
-    "links\n"
+    "touch a ball that is c away from it where it is nearest. gamma c / 2. Then spindles that a\n"
+    "parameter turns within themselves, c away from a bore or a ball, and the pairs of links\n"
     "of an arm of six joints with a gripper that never touch, whatever its joints do. Ends at\n"
     "--max-pairs.",
     methods, build, find};
