@@ -18,6 +18,16 @@
 
 static resolution resolved(const impact *im) { return resolution_of(im->gamma, im->gamma_clear); }
 
+/* Tubes that seem loose are opened when the pair is cut, and all others of the two surfaces. */
+static imp_code seek_in_tubes(const impact *im, const pair *p, witness *seen, imp_error *error)
+{
+    bool is_loose;
+    const imp_code code = witness_seek_in_tubes((const node *const[2]){p->a, p->b}, p->window.lo,
+                                                im->gamma, seen, &is_loose, error);
+    if (is_loose) im->trials[p->candidate_pair].are_open = true;
+    return code;
+}
+
 /* Seeks nearest points on the nets where these are close to the surfaces, and evaluates only the
  * points found. */
 static imp_code seek_witness(const impact *im, const pair *p, witness *seen, imp_error *error)
@@ -25,7 +35,7 @@ static imp_code seek_witness(const impact *im, const pair *p, witness *seen, imp
     const node *const nodes[2] = {p->a, p->b};
     const double t = p->window.lo, room = resolved(im).room, part = 0.25 * room / im->gamma;
     double y[NEWTON_UNKNOWNS];
-    if (pair_has_tubes(p)) return witness_seek_in_tubes(nodes, t, im->gamma, seen, error);
+    if (pair_has_tubes(p)) return seek_in_tubes(im, p, seen, error);
     if (!strategy_has_close_nets(p->a, p->b, room))
         return witness_seek(nodes, t, im->gamma, seen, error);
     net_nearest(nodes, p->axis, t, TUNING_WITNESS_NEAR * im->gamma,
@@ -131,6 +141,12 @@ static bool witness_is_likely(const impact *im, const pair *p, const distance_ou
            precision_ends(im, p, TUNING_WITNESS_FLAT);
 }
 
+/* Whether its points hardly depend on u and v. */
+static bool is_tiny(const impact *im, const pair *p)
+{
+    return TUNING_TINY * pair_extent(p) <= resolved(im).room;
+}
+
 /* Chooses a cut: first of the side that a distance chose; then in time if the motion bends much
  * within the window; else by spread. Where gamma is large and gamma - gamma_clear small, windows of
  * contact are long, and bending motion, not extent, makes their starts inexact. */
@@ -155,7 +171,7 @@ static imp_code choose_cut_after_free(impact *im, pair *p, const distance_outcom
     int half;
     if (p->tubes != TUBES_NONE) code = pair_tubes_take(im, p, &gamma, error);
     *c = choose_cut(im, p, distances, gamma);
-    if (c->side < 0 && pair_tubes_open(p)) *c = choose_cut(im, p, distances, gamma);
+    if (c->side < 0 && pair_tubes_open(im, p)) *c = choose_cut(im, p, distances, gamma);
     while (code == IMP_SUCCESS && cut_is_free(c, p, &half)) {
         bool some;
         code = cut_take(c, half, impact_candidates(im, p), p, &some, im->stats, error);
@@ -273,7 +289,7 @@ static imp_code expand_by_models(impact *im, pair *p, impact_state *state, imp_e
         if (code != IMP_SUCCESS) return code;
         if (pair_spread_ends(im, p, &seen))
             *state = end_by_contact(im, p, &seen);
-        else if (precision_ends(im, p, 1))
+        else if (precision_ends(im, p, 1) && !pair_tubes_open(im, p))
             *state = end_by_resolution(im, p);
         if (*state != IMPACT_RUNNING) return IMP_SUCCESS;
         p->wait = TUNING_WITNESS_WAIT;
@@ -289,7 +305,7 @@ static imp_code expand_by_models(impact *im, pair *p, impact_state *state, imp_e
     net_halves halves;
     code = split_leave_out_halves(im, p, &halves, &some, error);
     if (code == IMP_SUCCESS && !some) return IMP_SUCCESS;
-    if (code == IMP_SUCCESS && TUNING_TINY * pair_extent(p) <= resolved(im).room)
+    if (code == IMP_SUCCESS && is_tiny(im, p) && !pair_tubes_open(im, p))
         c = cut_in_time(p);
     else if (code == IMP_SUCCESS)
         code = choose_cut_after_free(im, p, &distances, &c, error);

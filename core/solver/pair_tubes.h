@@ -25,7 +25,9 @@ static inline bool pair_has_tubes(const pair *p)
  * their lines count as touching. IMP_ERROR_PLUGIN: a callback breaks the ABI. */
 imp_code pair_tubes_take(const impact *im, pair *p, double *gamma, imp_error *error);
 
-/* Lets v be cut, too. False: it is already, or the nodes are no tubes. */
-bool pair_tubes_open(pair *p);
+/* Lets v be cut, too, of all tubes of the two surfaces, before a search ends for lack of
+ * resolution: balls may reach farther than surfaces do. False: neither node is a tube that can be
+ * cut so. */
+bool pair_tubes_open(const impact *im, pair *p);
 
 #endif

@@ -142,10 +142,17 @@ static void consider_side(cut *best, const pair *p, int side, const double bend[
     cut_consider(best, p, side, PARAMETER_T, gain_in_time(p, n, bend[PARAMETER_T], of));
 }
 
+/* Lines in the middle of tubes are nearest where neither leads towards the other, as surfaces are
+ * where they are parallel. */
+static bool is_tangent(const pair *p)
+{
+    if (p->tubes == TUBES_CLOSED && p->a->ball > 0 && p->b->ball > 0) return true;
+    return !(vec3_norm1(p->axis) > 0) && strategy_is_tangent(p->a, p->b);
+}
+
 cut cut_by_spread(const pair *p, double scale, bool has_nets)
 {
-    const bool is_parted = vec3_norm1(p->axis) > 0;
-    const view of = {scale, !is_parted && strategy_is_tangent(p->a, p->b), has_nets};
+    const view of = {scale, is_tangent(p), has_nets};
     cut best = CUT_NONE;
     for (int side = 0; side < 2; ++side)
         consider_side(&best, p, side, side_of(p, side)->nonlinear_extent, &of);

@@ -114,14 +114,28 @@ static imp_code seek_around(const search *g, int side, vec3 way, double *y, imp_
     return IMP_SUCCESS;
 }
 
-imp_code witness_seek_in_tubes(const node *const nodes[2], double t, double gamma, witness *found,
-                               imp_error *error)
+/* Whether nearest points of both lines, which are off by the nodes' remainders at most, are between
+ * the ends of their nodes, so that surfaces that are all one radius from them are as near to each
+ * other as these are less both radii. */
+static bool are_inside(const double *y) { return fabs(y[0]) < 1 && fabs(y[2]) < 1; }
+
+static double remainder_of(const node *n)
 {
-    const line c[2] = {line_at(nodes[0], t), line_at(nodes[1], t)};
+    return node_blur(n, 0) + node_blur(n, 1) + node_blur(n, 2);
+}
+
+imp_code witness_seek_in_tubes(const node *const nodes[2], double t, double gamma, witness *found,
+                               bool *is_loose, imp_error *error)
+{
+    line c[2] = {line_at(nodes[0], t), line_at(nodes[1], t)};
+    /* Far from the origin the points' own roundings would hide the way along the lines. */
+    c[1].a = vec3_sub(c[1].a, c[0].a);
+    c[0].a = (vec3){{0, 0, 0}};
     const state s = nearest_of(c);
     search g = {.nodes = nodes, .t = t};
     double y[NEWTON_UNKNOWNS];
     imp_code code = IMP_SUCCESS;
+    *is_loose = false;
     memcpy(y, s.y, sizeof y);
     for (int side = 0; side < 2 && code == IMP_SUCCESS; ++side) {
         surface_domain(nodes[side]->surface, g.whole_lo[side], g.whole_hi[side]);
@@ -130,5 +144,8 @@ imp_code witness_seek_in_tubes(const node *const nodes[2], double t, double gamm
     if (code == IMP_SUCCESS) code = witness_at(nodes, t, y, found, error);
     const double near = s.gap - (nodes[0]->ball + nodes[1]->ball);
     if (code != IMP_SUCCESS || found->gap_upper <= gamma || !(near <= gamma)) return code;
-    return witness_polish(nodes, t, found, error);
+    code = witness_polish(nodes, t, found, error);
+    const double off = remainder_of(nodes[0]) + remainder_of(nodes[1]);
+    *is_loose = are_inside(s.y) && near + off <= gamma && !(found->gap_upper <= gamma);
+    return code;
 }

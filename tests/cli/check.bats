@@ -126,6 +126,14 @@ load ../support/check_helper
     done
 }
 
+@test "tubes that are wider than their surfaces decide as narrow ones do" {
+    local turned='rotate axis=1,0.2,0.3 rate=5 center=0,0,1'
+    mkdir wide && cp "$liars/liar_truthful_tube.so" wide
+    run -0 "$IMPINGE" pair "liar_truthful_tube ! $turned" "liar_truthful_tube ! $turned
+        ! translate offset=[[2.82843,-2,0],[0,4,0]]" --plugin-path "$PWD/wide" --gamma 3e-4 --json
+    json '.verdict == "clear" and .stats.pairs < 100'
+}
+
 @test "symmetries that are none are exposed, and true ones are not" {
     exposes distances liar_symmetry 'symmetry allows turning by '
     exposes distances symmetry_nan 'the symmetry has an unknown kind'

@@ -96,7 +96,7 @@ START_TEST(tubes_that_cross_are_opened)
 {
     registry = query_registry();
     check_opened("torus minor_radius=0.5", "torus minor_radius=0.1 ! rotate axis=1,0.2,0 rate=0.3",
-                 IMP_VERDICT_CLEAR, 400);
+                 IMP_VERDICT_CLEAR, 60);
     check_opened("torus", "torus ! translate offset=[[0.1,0.2,0.1],[0,1,0]]", IMP_VERDICT_CONTACT,
                  200);
     check_opened("torus", "torus major_radius=1.2 ! translate offset=[[0,0,2],[0,0,-2]]",
@@ -105,5 +105,32 @@ START_TEST(tubes_that_cross_are_opened)
 }
 END_TEST
 
+/* Motion that bends by half of gamma within a window is cut before lines are cut that short. */
+START_TEST(bending_motion_is_cut_before_lines)
+{
+    const question q = {
+        .a = "torus major_radius=1.2103489078245466 minor_radius=0.2131504306885969 ! rotate "
+             "axis=0.27341644141316479,0.54161727455869046,-0.56278888266724869 "
+             "angle=[1.4199248136434783,-2.8798426259741516] "
+             "center=0.24190623893163454,-0.2590738238905903,-0.02923778104032726 ! translate "
+             "offset=[[654954.24689680629,-235265.0573160554,59845.943912200622],"
+             "[0.35892330934472483,-0.20255446452520842,0.32764998647405053],"
+             "[-0.51363709750591857,-0.99871771640368756,-0.85585289594997427]]",
+        .b = "torus major_radius=1.124839046834083 minor_radius=0.42394327917979696 ! rotate "
+             "axis=-0.83091554885245755,0.76397152369404808,-0.70339491610431115 "
+             "angle=[-0.15989068341614132,-1.6676466303582824] "
+             "center=0.31069529313446298,-0.076593267012168731,-0.084985372287982863 ! translate "
+             "offset=[[654958.20947607828,-235265.69405873751,59846.339246407246],"
+             "[-3.6436947604746188,-0.39647754738457119,-0.86889310951601684],"
+             "[-0.20760000586712768,-0.8135893380664343,0.88393397563802778]]",
+        .gamma = 1e-6};
+    registry = query_registry();
+    const imp_result r = ask_in(registry, &q);
+    ck_assert_int_eq(r.verdict, IMP_VERDICT_CONTACT);
+    ck_assert_msg(r.stats.pairs <= 400, "%llu pairs", (unsigned long long)r.stats.pairs);
+    imp_registry_free(registry);
+}
+END_TEST
+
 SUITE_MAIN("tubes", tubes_answer_as_surfaces_do, points_of_surfaces_are_in_tubes,
-           tubes_that_cross_are_opened)
+           tubes_that_cross_are_opened, bending_motion_is_cut_before_lines)
