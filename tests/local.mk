@@ -1036,25 +1036,27 @@ EXTRA_DIST += \
 
 # The parts of tools/test --all: half of all draws of property tests and the release in the first, a tenth
 # with sanitizers, which look for other faults than bounds. With clang the suites in C, which compare bits
-# and bounds. With sanitizers also those scripts whose input reaches C in
-# ways of its own: looks of pictures, pages, terminals, files, budgets and many processes are the first
-# part's. AddressSanitizer handles stack overflows and ends of threads itself, before the command can.
+# and bounds. With sanitizers also those scripts whose input reaches C in ways of its own: certificates, looks
+# of pictures, pages, terminals, files, budgets and many processes are the first part's; suites in C and
+# tests/fuzz read certificates and draw pictures with sanitizers. AddressSanitizer handles stack overflows and
+# ends of threads itself, before the command can.
 # test_lanes.c has all kernels a second time: it takes more than a minute to compile with sanitizers,
 # which see these kernels in all other suites. test_tightness.c and test_loosened.c judge how good bounds are:
 # these bounds are computed with sanitizers in the suites of types and of queries.
-# Sanitizers see no less in programs that are not optimized, which take two thirds of the time to compile: what
-# only test programs consist of is made so, once all else is made with the flags of the build.
+# Sanitizers and clang see no less in programs that are not optimized, which take two thirds of the time to
+# compile: what only test programs consist of is made so, once all else is made with the flags of the build.
 all_suites = $(if $(filter $(script_suites),$(TESTS)),$(release_suites)) $(TESTS)
 clang_suites = $(filter-out %.bats,$(TESTS))
 not_sanitized = tests/unit/test_lanes tests/unit/test_loosened tests/unit/test_tightness
 sanitized_suites = $(filter-out $(script_suites) $(not_sanitized) \
-    $(patsubst %,tests/cli/%.bats,bench check check_manners check_proofs cli cli_list completion files \
-      hostile hostile_hangs host host_cache host_lies matrix mpi page \
-      parameters_view plot progress series simulate_rest simulate_scenes),$(TESTS))
+    $(patsubst %,tests/cli/%.bats,bench certificates certificates_parameters check check_manners \
+      check_proofs cli cli_list completion files hostile hostile_hangs host host_cache host_lies matrix mpi \
+      page parameters_view plot progress series simulate_rest simulate_scenes view),$(TESTS))
 .PHONY: check-all check-clang check-sanitized check-threads
 check-all:
 	IMPINGE_TEST_MULTIPLIER=$${IMPINGE_TEST_MULTIPLIER-0.5} $(MAKE) check TESTS='$(all_suites)'
-check-clang:
+check-clang: all
+	$(MAKE) CFLAGS='$(CFLAGS) -O0' $(check_PROGRAMS)
 	$(MAKE) check TESTS='$(clang_suites)'
 check-sanitized: all
 	$(MAKE) CFLAGS='$(CFLAGS) -O0' $(filter-out $(not_sanitized),$(check_PROGRAMS))

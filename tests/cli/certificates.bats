@@ -109,7 +109,6 @@ near='sphere center=2.01,0.1,0.2'
 
 # For a turn by more than pi within a cell, bounds by axes are as wide as the bore.
 @test "balls, cans and boxes that turn often in a bore are proved about one centre" {
-    without_sanitizers
     local turn='rotate axis=0,0,1 rate' rate
     for rate in 6 30; do
         "$IMPINGE" pair "sphere ! rotate rate=$rate" 'cylinder radius=1.01 height=0.5' --proof ball
@@ -138,7 +137,6 @@ near='sphere center=2.01,0.1,0.2'
 # Each flank is nearer to the other's axis than the other's crests: no distance from the axis parts
 # them, and leaves that were cut for a bolt at rest would have to be cut again in time.
 @test "a nut on its bolt is proved by parts, each for some of the time" {
-    without_sanitizers
     local bolt='thread pitch=2 height=0.5 ! screw pitch=2 rate=1'
     local nut='thread radius=1.1 pitch=2 height=1'
     "$IMPINGE" pair "$bolt" "$nut" --gamma 0.04 --proof thread.proof
@@ -401,7 +399,6 @@ patch_certificate() {
 }
 
 @test "certificates of an arm, of a teapot and a torus, and of meshes that roll by hold" {
-    without_sanitizers
     "$IMPINGE" clearance "$top_srcdir"/tools/data/arm.json --require 2 --proof arm.proof
     "$IMPINGE" solve "$top_srcdir"/tools/data/teapot.json --proof teapot.proof
     printf 'v %s\n' '1 0 0' '0 1 0' '-1 0 0' '0 -1 0' '0 0 1' '0 0 -1' >gem.obj
@@ -435,7 +432,6 @@ surface subdivision: holds assuming subdivision' ]
 }
 
 @test "certificates of rollers that spin beside each other hold" {
-    without_sanitizers
     local ends
     for ends in false true; do
         run -0 "$IMPINGE" pair "cylinder radius=.4 ends=$ends ! rotate rate=5" \
@@ -447,7 +443,6 @@ surface subdivision: holds assuming subdivision' ]
 
 # An axis parts a strip of a cone, and turns with it. In a half plane about their line, one parts all.
 @test "a cone that turns in a cone, and a vase of straight sides, are proved by few tests" {
-    without_sanitizers
     local turn='rotate axis=0,0,1 rate=3' line='revolution profile=[[1,-0.1],[0.5,0.4]]'
     "$IMPINGE" pair cone "cone center=0,0,-0.1 ! $turn" --gamma 1e-2 --proof cones
     "$IMPINGE" pair 'revolution profile=[[1,0],[0.5,0.5]]' "$line ! $turn" --gamma 1e-2 --proof turned

@@ -69,7 +69,6 @@ passing=('sphere ! translate velocity=2,0,0' 'sphere center=1,3,0')
 }
 
 @test "a finer picture is more exact" {
-    without_sanitizers
     view -o fine.svg --tolerance 1e-4 --at 0 >fine
     view -o coarse.svg --tolerance 1e-1 --at 0 >coarse
     awk '{ e[NR] = $NF } END { exit !(e[1] <= 1e-4 && e[2] <= 1e-1 && e[2] > 1e-3) }' fine coarse
