@@ -221,6 +221,8 @@ core_broad_phase = \
     core/broad_phase/candidates.c core/broad_phase/candidates.h \
     core/broad_phase/candidates_part.c \
     core/broad_phase/candidates_rest.c core/broad_phase/candidates_rest.h \
+    core/broad_phase/candidates_more.c \
+    core/broad_phase/later_pairs.c core/broad_phase/later_pairs.h \
     core/broad_phase/collect_aside.c \
     core/broad_phase/collect_frames.c core/broad_phase/collect_glances.c \
     core/broad_phase/collect_half_planes.c core/broad_phase/collect_holds.c \

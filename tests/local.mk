@@ -145,6 +145,7 @@ mpfi_suites = \
     tests/unit/test_distances \
     tests/unit/test_expression_bounds \
     tests/unit/test_coils \
+    tests/unit/test_crowds \
     tests/unit/test_round_nets \
     tests/unit/test_round_profiles \
     tests/unit/test_formula \
@@ -192,6 +193,7 @@ tests_unit_test_scene_judge_SOURCES = tests/unit/test_scene_judge.c tests/fuzz/s
     tests/fuzz/scene_judge.h
 # Scenes of many bodies, for programs and for the command.
 tests_unit_test_parallel_SOURCES = tests/unit/test_parallel.c tools/bench/crowd.c tools/bench/crowd.h
+tests_unit_test_crowds_SOURCES = tests/unit/test_crowds.c tools/bench/crowd.c tools/bench/crowd.h
 tests_unit_test_parts_SOURCES = tests/unit/test_parts.c tools/bench/crowd.c tools/bench/crowd.h
 tests_support_crowd_scene_SOURCES = tests/support/crowd_scene.c tools/bench/crowd.c
 tests_support_crowd_scene_LDADD = -lm

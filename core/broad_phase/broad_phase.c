@@ -16,12 +16,18 @@ static bool apart(double above, double below, double gamma_clear)
     return padded_lower(above - below, 2) > gamma_clear;
 }
 
-static bool boxes_apart(const swept_box *a, const swept_box *b, double gamma_clear)
+bool broad_phase_apart(const double lo[3], const double hi[3], const double other_lo[3],
+                       const double other_hi[3], double gamma_clear)
 {
     for (int i = 0; i < 3; ++i)
-        if (apart(a->lo[i], b->hi[i], gamma_clear) || apart(b->lo[i], a->hi[i], gamma_clear))
+        if (apart(lo[i], other_hi[i], gamma_clear) || apart(other_lo[i], hi[i], gamma_clear))
             return true;
     return false;
+}
+
+static bool boxes_apart(const swept_box *a, const swept_box *b, double gamma_clear)
+{
+    return broad_phase_apart(a->lo, a->hi, b->lo, b->hi, gamma_clear);
 }
 
 /* --- The order of the sweep ------------------------------------------------------------------- */

@@ -25,6 +25,11 @@ typedef struct broad_phase_visitor {
     void *context;
 } broad_phase_visitor;
 
+/* Whether two boxes, each of lo and hi, are proved to be farther apart than gamma_clear along an
+ * axis. A NaN never proves it. */
+bool broad_phase_apart(const double lo[3], const double hi[3], const double other_lo[3],
+                       const double other_hi[3], double gamma_clear);
+
 enum { BROAD_PHASE_FEW = 6 }; /* up to so many boxes are not worth sorting */
 
 /* Visits the pairs without a sweep, each box with each after it. False from the visitor stops this

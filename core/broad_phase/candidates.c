@@ -127,17 +127,30 @@ static imp_code sort_pairs(collection *all, bool *done, imp_error *error)
     return has_memory ? IMP_SUCCESS : error_set_memory(error);
 }
 
+/* Whether pairs may be left for later: in large scenes, where most take more time and memory than
+ * another box of each surface. */
+static bool may_wait(const collection *all)
+{
+    return all->may_wait && all->list->count > ROOTS_AT_ONCE && all->list->count < UINT32_MAX &&
+           all->options->t_start < all->options->t_end && !scene_has_solids(all->scene);
+}
+
 static imp_code collect_pairs(collection *all, bool *done, imp_error *error)
 {
     *done = true;
     if (scene_counts_pairs(all->scene) && imp_scene_pair_count(all->scene) == 0) return IMP_SUCCESS;
     if (all->is_nearest && all->list->count > ROOTS_AT_ONCE) collection_limit_distance(all);
+    if (may_wait(all)) {
+        all->list->later = later_pairs_new(all->list->store, all->options->t_start);
+        if (all->list->later == NULL) return error_set_memory(error);
+    }
     *done = collection_add_pairs(all);
     if (all->out_of_memory) return error_set_memory(error);
     if (*done && scene_has_solids(all->scene)) {
         const imp_code code = collection_add_solids(all, done, error);
         if (code != IMP_SUCCESS) return code;
     }
+    if (*done && all->list->later != NULL) return collection_sort_later(all, done, error);
     if (!*done || all->list->pair_count < 2) return IMP_SUCCESS;
     return sort_pairs(all, done, error);
 }
@@ -192,6 +205,7 @@ imp_code candidates_find(candidate_list *list, imp_scene *scene, const imp_optio
                       .stats = stats,
                       .gamma_clear = search->gamma_clear,
                       .is_nearest = search->is_nearest,
+                      .may_wait = models && search->may_wait,
                       .list = list};
     bool done = false;
     imp_code code =
@@ -213,7 +227,7 @@ imp_code candidates_find(candidate_list *list, imp_scene *scene, const imp_optio
 uint64_t candidates_bytes(const candidate_list *list)
 {
     return list->count * sizeof *list->candidates + list->pair_capacity * sizeof *list->pairs +
-           list->half_planes * sizeof(half_plane);
+           list->half_planes * sizeof(half_plane) + later_pairs_bytes(list->later);
 }
 
 void candidates_clear(candidate_list *list)
@@ -224,5 +238,6 @@ void candidates_clear(candidate_list *list)
         arena_store_free_room(list->store, list->candidates[k].half);
     if (list->candidates != list->at_hand) arena_store_free_room(list->store, list->candidates);
     arena_store_free_room(list->store, list->pairs);
+    later_pairs_free(list->later);
     *list = (candidate_list){.store = list->store};
 }

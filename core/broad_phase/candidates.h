@@ -30,8 +30,9 @@ typedef struct candidate_list {
                     surface_half_plane where that is used; length */
     size_t half_planes;
     bool complete;
-    bool owns_trees; /* else they are the scene's */
-} candidate_list;    /* begins as {0} or with its store, and stays where it is once filled;
+    bool owns_trees;           /* else they are the scene's */
+    struct later_pairs *later; /* pairs that are not in `pairs` yet; NULL: there are none */
+} candidate_list; /* begins as {0} or with its store, and stays where it is once filled;
                      candidates_clear frees */
 
 /* The caller's limits. is_reached is called after every few surfaces and boxes, with the bytes that
@@ -58,6 +59,8 @@ typedef struct candidate_search {
     double slip_useful;
     bool may_halve; /* nodes that miss a half plane may be left out: each pair that is left need
                        not be near all points that it stands for (proofs, spreads) */
+    bool may_wait;  /* only the first contact is sought, so that pairs that are apart at first may
+                       be left to candidates_more */
     bool in_parts;  /* candidates_frame is asked for frames and missing roots, for some pairs at a
                       time, so that the first pairs are searched before the last are prepared */
 } candidate_search;
@@ -68,6 +71,20 @@ typedef struct candidate_search {
 imp_code candidates_find(candidate_list *list, imp_scene *scene, const imp_options *options,
                          const candidate_search *search, const candidate_limit *limit,
                          imp_stats *stats, imp_error *error);
+
+/* Returns the number of its pairs, with those that it lacks so far (candidates_more). */
+size_t candidates_pairs_in_all(const candidate_list *list);
+
+/* Returns the time up to which the pairs that the list lacks so far are farther apart than twice
+ * the query's gamma; INFINITY: it lacks none. */
+double candidates_apart_until(const candidate_list *list);
+
+/* Adds the pairs that come near each other next, so that candidates_apart_until is a later time; no
+ * more than `until` is of use, which is later. The pairs of two bodies are added together. *done
+ * false: a limit came first, and nothing was added. */
+imp_code candidates_more(candidate_list *list, imp_scene *scene, const imp_options *options,
+                         const candidate_search *search, const candidate_limit *limit, double until,
+                         imp_stats *stats, bool *done, imp_error *error);
 
 /* Fills an empty list with `count` pairs of the same two bodies, from `first` on, of a list
  * collected `in_parts`, with the scene's trees in the frames of these pairs. `whole` is only read,

@@ -26,6 +26,11 @@ static bool keep_pair(collection *all, const candidate_pair *p)
 {
     candidate_list *list = all->list;
     candidate_pair *grown = NULL;
+    if (list->later != NULL) {
+        all->out_of_memory = !later_pairs_add(list->later, (size_t)(p->side[0] - list->candidates),
+                                              (size_t)(p->side[1] - list->candidates));
+        return !all->out_of_memory;
+    }
     if (list->pair_count < UINT32_MAX)
         grown = arena_store_reserve(list->store, list->pairs, list->pair_count,
                                     &list->pair_capacity, sizeof *grown);

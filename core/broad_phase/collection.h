@@ -7,12 +7,13 @@
 
 #include "core/broad_phase/broad_phase.h"
 #include "core/broad_phase/candidates.h"
+#include "core/broad_phase/later_pairs.h"
 #include "core/broad_phase/parallel.h"
 #include "core/broad_phase/strips.h"
 
 /* Declarations shared by the files that make the list of candidates: candidates.c begins and sorts
- * it; candidates_part.c copies some of it; collect_surfaces.c, collect_pairs.c and collect_roots.c
- * fill it, each possibly with threads that work ahead. */
+ * it; candidates_part.c copies some of it, candidates_more.c adds to it; collect_surfaces.c,
+ * collect_pairs.c and collect_roots.c fill it, each possibly with threads that work ahead. */
 
 /* A surface whose tree is made ahead of its turn, and the memory that this added. */
 typedef struct surface_ahead {
@@ -61,6 +62,7 @@ typedef struct collection {
     imp_stats *stats;
     double gamma_clear;
     bool is_nearest;      /* of the candidate_search */
+    bool may_wait;        /* of the candidate_search */
     size_t common_motion; /* number of last maps of all surfaces that all trees leave out */
     double slip_most;     /* of the list; < 0: nothing that slips may replace a surface; length */
     bool in_slices;       /* of the candidate_search */
@@ -93,7 +95,7 @@ typedef struct collection {
 static inline bool collection_must_end(const collection *all)
 {
     return all->limit->is_reached(all->limit->context, candidates_bytes(all->list),
-                                  all->list->pair_count);
+                                  candidates_pairs_in_all(all->list));
 }
 
 static inline bool collection_may_end(collection *all, size_t pair_size)
@@ -110,6 +112,9 @@ static inline void collection_count(collection *all, const tree_growth *growth)
     all->stats->nodes += growth->nodes;
     all->stats->bytes += growth->bytes;
 }
+
+/* Makes the list's pairs of those found, `later`, where these are few; else they stay there. */
+imp_code collection_sort_later(collection *all, bool *done, imp_error *error);
 
 /* Adds all surfaces. *done false: a limit was reached first. */
 imp_code collection_add_surfaces(collection *all, bool *done, imp_error *error);

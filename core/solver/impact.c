@@ -4,6 +4,9 @@
 
 #include "core/solver/impact.h"
 
+#include <stdlib.h>
+#include <string.h>
+
 #include "core/solver/pair_note.h"
 #include "core/solver/pair_step.h"
 
@@ -29,6 +32,48 @@ void impact_push_untested(impact *im, const pair *p)
     waiting.is_seen_only = waiting.lacks_nets = true;
     pair_note_test(im->proof, &waiting, true);
     push(im, &waiting);
+}
+
+/* --- Further candidates ----------------------------------------------------------------------- */
+
+/* Lengthens an array of the store, if there is one; what is new is 0. False: no memory. */
+static bool lengthen(arena_store *store, void **array, size_t old, size_t count, size_t size)
+{
+    if (*array == NULL) return true;
+    char *longer = arena_store_regrow(store, *array, old * size, count * size);
+    if (longer == NULL) return false;
+    memset(longer + old * size, 0, (count - old) * size);
+    *array = longer;
+    return true;
+}
+
+/* Like lengthen, in the heap. */
+static bool lengthen_in_heap(void **array, size_t old, size_t count, size_t size)
+{
+    if (*array == NULL) return true;
+    char *longer = realloc(*array, count * size);
+    if (longer == NULL) return false;
+    memset(longer + old * size, 0, (count - old) * size);
+    *array = longer;
+    return true;
+}
+
+bool impact_take_candidates(impact *im, candidate_pair *pairs, size_t count)
+{
+    const size_t old = im->candidate_pair_count;
+    void *trials = im->trials, *roots = im->roots, *passed = im->passed, *explained = im->explained;
+    im->candidate_pairs = pairs;
+    if (count == old) return true;
+    const bool ok = lengthen(im->heap.store, &trials, old, count, sizeof *im->trials) &&
+                    lengthen(im->heap.store, &roots, old, count, sizeof *im->roots) &&
+                    lengthen_in_heap(&passed, old, count, sizeof *im->passed) &&
+                    lengthen_in_heap(&explained, old, count, sizeof *im->explained);
+    if (ok && trials != NULL) im->stats->bytes += (count - old) * sizeof *im->trials;
+    im->trials = trials, im->roots = roots, im->passed = passed, im->explained = explained;
+    for (size_t k = old; ok && roots != NULL && k < count; ++k)
+        im->roots[k] = (time_window){NAN, NAN};
+    if (ok) im->candidate_pair_count = count;
+    return ok;
 }
 
 void impact_note_gap(impact *im, const witness *seen)

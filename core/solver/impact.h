@@ -71,13 +71,16 @@ typedef struct impact {
     tests_ahead ahead;          /* made by other threads (pair_test.h) */
     uint64_t serial, refined;   /* number of the next pair; of the first after impact_refine */
     double t_lower;
+    double apart_until; /* all that is not among the candidate pairs is farther apart than gamma
+                           before; INFINITY: at all times */
     time_window *roots; /* windows of candidate pairs; NAN: unknown; NULL: before impact_refine */
     bool *passed;       /* candidate pairs that impact_pass excluded; NULL: none */
     bool any_gap;       /* whether two points were evaluated, */
     double least_gap;   /* and the least distance of two; length */
     witness found;      /* IMPACT_CONTACT: the witness, */
     uint32_t found_candidate; /* of the last expanded pair; of the witness with IMPACT_CONTACT */
-} impact; /* the caller sets gamma ... stats and t_lower, the rest is 0; impact_clear frees */
+} impact; /* the caller sets gamma ... stats, t_lower and apart_until, the rest is 0; impact_clear
+             frees */
 
 /* Returns the counts of turning axes of the pair; NULL before the first step: always try. */
 static inline trial_rate *impact_turning(const impact *im, const pair *p)
@@ -92,6 +95,10 @@ void impact_push(impact *im, pair_test *t);
 /* Pushes a pair that is not tested, since max_pairs are: it is tested if it is ever popped.
  * Precondition: as for impact_push. */
 void impact_push_untested(impact *im, const pair *p);
+
+/* Takes the caller's candidate pairs, to which some were added since. False: no memory; some of
+ * the counts are longer, which does no harm. */
+bool impact_take_candidates(impact *im, candidate_pair *pairs, size_t count);
 
 /* Keeps the least gap of all witnesses. */
 void impact_note_gap(impact *im, const witness *seen);

@@ -68,6 +68,7 @@ FP_APART static imp_query *new_query(imp_scene *scene, const imp_options *given,
                                     .baseline = options->baseline,
                                     .max_pairs = options->max_pairs,
                                     .t_lower = options->t_start,
+                                    .apart_until = INFINITY,
                                     .window = {options->t_start, options->t_end},
                                     .stats = &query->stats,
                                     .heap = {.store = store}},
@@ -167,12 +168,11 @@ FP_APART static imp_code step(imp_query *query, uint64_t pairs, imp_error *error
     query->reason = IMP_REASON_RUNNING;
     const double limit_before = query_limit_callbacks(query, start);
     if (!query->candidates.complete) code = begin(query, start, error);
-    const uint64_t of_candidates = candidates_bytes(&query->candidates);
     const unsigned look_after = units_per_reading(query);
     for (unsigned k = 0; code == IMP_SUCCESS && query->reason == IMP_REASON_RUNNING; ++k) {
         if (k % look_after == 0 || query->watch_ended) query_read_clock(query, before, start);
         query->watch_ended = false;
-        query_note_bytes(query, of_candidates);
+        query_note_bytes(query, candidates_bytes(&query->candidates));
         const imp_reason reason = query_exhausted_limit(query, query->stats.seconds);
         if (reason != IMP_REASON_NONE)
             query_finish(query, IMP_VERDICT_UNDECIDED, reason);
@@ -183,7 +183,7 @@ FP_APART static imp_code step(imp_query *query, uint64_t pairs, imp_error *error
     }
     active_callback_limit(limit_before);
     query->stats.seconds = before + (clock_seconds() - start);
-    query_note_bytes(query, of_candidates);
+    query_note_bytes(query, candidates_bytes(&query->candidates));
     if (code == IMP_ERROR_MEMORY) {
         query_finish(query, IMP_VERDICT_UNDECIDED, IMP_REASON_MEMORY);
         return IMP_SUCCESS;

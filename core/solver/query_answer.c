@@ -7,6 +7,7 @@
 
 #include "core/base/sized.h"
 #include "core/base/status.h"
+#include "core/broad_phase/later_pairs.h"
 #include "core/solver/query_internal.h"
 
 static size_t unresolved(const imp_query *query, int side)
@@ -87,7 +88,32 @@ static struct imp_pending_side pending_side(const imp_query *query, size_t k, in
                                      {r->lo[PARAMETER_V], r->hi[PARAMETER_V]}};
 }
 
-/* Pairs on the heap come first, then the candidates whose roots were not tested yet. */
+/* Describes one side of a candidate pair that was not even made ready. */
+static struct imp_pending_side later_side(const imp_query *query, size_t k, int side)
+{
+    const candidate_list *list = &query->candidates;
+    const candidate *c = &list->candidates[list->later->pair[k][side]];
+    const surface *s = tree_surface(c->tree);
+    const size_t pieces = surface_piece_count(s);
+    double lo[3], hi[3];
+    surface_domain(s, lo, hi);
+    return (struct imp_pending_side){c->body,
+                                     c->surface,
+                                     pieces > 1 ? SIZE_MAX : 0,
+                                     {lo[PARAMETER_U], hi[PARAMETER_U]},
+                                     {lo[PARAMETER_V], hi[PARAMETER_V]}};
+}
+
+static bool later_pending(const imp_query *query, size_t k, imp_pending *pending)
+{
+    const later_pairs *later = query->candidates.later;
+    if (later == NULL || k >= later->count) return false;
+    *pending = (imp_pending){later->until, later_side(query, k, 0), later_side(query, k, 1)};
+    return true;
+}
+
+/* Pairs on the heap come first, then the candidates whose roots were not tested yet, and those that
+ * were not made ready. */
 bool imp_query_pending(const imp_query *query, size_t index, imp_pending *pending)
 {
     if (query == NULL || pending == NULL) return false;
@@ -97,7 +123,9 @@ bool imp_query_pending(const imp_query *query, size_t index, imp_pending *pendin
     if (index < heap->count) first = pair_heap_at(heap, index), waiting = &first;
     const size_t k = waiting != NULL ? waiting->candidate_pair
                                      : query->candidates_tested + (index - heap->count);
-    if (query->clearance != NULL || k >= query->candidates.pair_count) return false;
+    if (query->clearance != NULL) return false;
+    if (k >= query->candidates.pair_count)
+        return later_pending(query, k - query->candidates.pair_count, pending);
     *pending = (imp_pending){waiting != NULL ? waiting->window.lo : query->options.t_start,
                              pending_side(query, k, 0, waiting != NULL ? waiting->a : NULL),
                              pending_side(query, k, 1, waiting != NULL ? waiting->b : NULL)};

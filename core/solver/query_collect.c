@@ -2,7 +2,10 @@
  * SPDX-License-Identifier: Apache-2.0 */
 #include <config.h>
 
+#include <math.h>
+
 #include "core/base/rounding.h"
+#include "core/base/status.h"
 #include "core/common/clock.h"
 #include "core/solver/query_internal.h"
 
@@ -11,6 +14,7 @@
 typedef struct collecting {
     imp_query *query;
     double seconds_before, start; /* of this step */
+    uint64_t bytes;               /* of candidates that there are already */
     imp_reason reason;
 } collecting;
 
@@ -26,7 +30,7 @@ static bool limit_is_reached(void *context, uint64_t bytes, uint64_t pairs)
     collecting *c = context;
     const uint64_t most = most_candidates(c->query);
     query_read_clock(c->query, c->seconds_before, c->start);
-    query_note_bytes(c->query, bytes);
+    query_note_bytes(c->query, c->bytes + bytes);
     c->reason = query_exhausted_limit(c->query, c->query->stats.seconds);
     if (c->reason == IMP_REASON_NONE && most > 0 && pairs > most) c->reason = IMP_REASON_PAIRS;
     return c->reason != IMP_REASON_NONE;
@@ -40,7 +44,7 @@ static bool limit_is_near(void *context, uint64_t bytes, uint64_t pairs)
     const imp_options *options = &query->options;
     const uint64_t most = most_candidates(query);
     return atomic_load_explicit(&query->cancelled, memory_order_relaxed) ||
-           (most > 0 && query->candidates.pair_count + pairs > most) ||
+           (most > 0 && candidates_pairs_in_all(&query->candidates) + pairs > most) ||
            (options->max_bytes > 0 && query->peak_bytes + bytes > options->max_bytes) ||
            (options->max_seconds > 0 &&
             c->seconds_before + (clock_seconds() - c->start) >= options->max_seconds);
@@ -84,6 +88,8 @@ static candidate_search search_of(const imp_query *query)
         .slip_useful = slip_useful(query),
         .slip_most = query->clearance != NULL ? clearance_slip_most(query->clearance) : INFINITY,
         .may_halve = query->proof == NULL && query->impact.spread == NULL,
+        .may_wait = query->clearance == NULL && query->proof == NULL && query->divided == 0 &&
+                    query->impact.spread == NULL && !query->impact.explains,
         .in_parts = query->divided > 0};
 }
 
@@ -91,7 +97,7 @@ static candidate_search search_of(const imp_query *query)
  * surfaces are candidates, however far apart, but where there are many. */
 imp_code query_collect(imp_query *query, double start, imp_error *error)
 {
-    collecting c = {query, query->stats.seconds, start, IMP_REASON_NONE};
+    collecting c = {.query = query, .seconds_before = query->stats.seconds, .start = start};
     const candidate_limit limit = {limit_is_reached, limit_is_near, &c};
     const candidate_search search = search_of(query);
     const imp_code code = candidates_find(&query->candidates, query->scene, &query->options,
@@ -99,16 +105,41 @@ imp_code query_collect(imp_query *query, double start, imp_error *error)
     query->impact.gamma_clear = query_searched_gamma_clear(query, query->gamma_clear);
     query->impact.candidate_pairs = query->candidates.pairs;
     query->impact.candidate_pair_count = query->candidates.pair_count;
+    query->impact.apart_until = candidates_apart_until(&query->candidates);
     if (code == IMP_SUCCESS && !query->candidates.complete)
         query_finish(query, IMP_VERDICT_UNDECIDED, c.reason);
     return code;
+}
+
+/* If a limit ends it, the next step starts it again. Lemma. Slips of later pairs only raise
+ * gamma_clear: what was proved of earlier pairs holds for their own slips. */
+imp_code query_collect_more(imp_query *query, imp_error *error)
+{
+    impact *im = &query->impact;
+    candidate_list *list = &query->candidates;
+    collecting c = {.query = query,
+                    .seconds_before = query->step_from[0],
+                    .start = query->step_from[1],
+                    .bytes = candidates_bytes(list)};
+    const candidate_limit limit = {limit_is_reached, limit_is_near, &c};
+    const candidate_search search = search_of(query);
+    const double until = im->upper.is_known ? im->upper.t : INFINITY;
+    bool done;
+    const imp_code code = candidates_more(list, query->scene, &query->options, &search, &limit,
+                                          until, &query->stats, &done, error);
+    if (code == IMP_SUCCESS && !done) query_finish(query, IMP_VERDICT_UNDECIDED, c.reason);
+    if (code != IMP_SUCCESS || !done) return code;
+    im->gamma_clear = query_searched_gamma_clear(query, query->gamma_clear);
+    if (!impact_take_candidates(im, list->pairs, list->pair_count)) return error_set_memory(error);
+    im->apart_until = candidates_apart_until(list);
+    return IMP_SUCCESS;
 }
 
 imp_code query_collect_part(imp_query *part, const imp_query *whole, size_t index, imp_error *error)
 {
     const query_parts *parts = whole->parts;
     const size_t first = parts->first[index], count = parts->first[index + 1] - first;
-    collecting c = {part, 0, clock_seconds(), IMP_REASON_NONE};
+    collecting c = {.query = part, .start = clock_seconds()};
     const candidate_limit limit = {limit_is_reached, limit_is_near, &c};
     const candidate_search search = search_of(whole);
     candidate_list framed = {0};

@@ -101,6 +101,8 @@ imp_code query_search_contact(imp_query *query, imp_error *error)
         code =
             impact_add_candidate(&query->impact, (uint32_t)query->candidates_tested, &state, error);
         if (state == IMPACT_RUNNING) query->candidates_tested += 1;
+    } else if (impact_lacks_candidates(&query->impact)) {
+        code = query_collect_more(query, error);
     } else {
         code = impact_advance(&query->impact, &state, error);
     }

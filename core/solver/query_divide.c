@@ -115,6 +115,7 @@ static imp_query *fresh_query(const imp_query *whole, imp_error *error)
                              .max_pairs = whole->impact.max_pairs,
                              .spread = whole->impact.spread,
                              .stats = &query->stats,
+                             .apart_until = INFINITY,
                              .t_lower = whole->options.t_start};
     atomic_init(&query->cancelled, false);
     query_begin_watch(query);

@@ -111,6 +111,10 @@ imp_code query_search_contact(imp_query *query, imp_error *error);
  * the step began. */
 imp_code query_collect(imp_query *query, double start, imp_error *error);
 
+/* Adds pairs that come near only later to the candidates, unless a limit comes first, which ends
+ * the query. */
+imp_code query_collect_more(imp_query *query, imp_error *error);
+
 /* Fills the list of candidates of a part, in the frames in which they are searched. Limits that
  * come first are left to the next step. `whole` is only read, but for the counts of its parts. */
 imp_code query_collect_part(imp_query *part, const imp_query *whole, size_t index,

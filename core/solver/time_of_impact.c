@@ -168,6 +168,14 @@ static bool is_settled(const impact *im)
            (im->heap.count == 0 || !(pair_heap_first(&im->heap) < im->upper.t));
 }
 
+bool impact_lacks_candidates(const impact *im)
+{
+    const double until = im->apart_until;
+    if (!(until < INFINITY) || (im->upper.is_known && im->upper.t <= until && is_settled(im)))
+        return false;
+    return im->heap.count == 0 || !(pair_heap_first(&im->heap) < until);
+}
+
 /* Ends the search with the known contact. */
 static impact_state settle(impact *im)
 {
@@ -182,6 +190,13 @@ static imp_code contradict(const impact *im, imp_error *error)
     const candidate_pair *both = &im->candidate_pairs[im->found_candidate];
     return contradiction_fault(tree_surface(both->side[0]->tree), tree_surface(both->side[1]->tree),
                                im->found.gap_upper, im->t_lower, im->gamma_clear, error);
+}
+
+/* A pair that waited until a later time, where it was taken to be apart before, meets earlier. */
+static imp_code contradict_before(impact *im, double t, imp_error *error)
+{
+    im->t_lower = t;
+    return im->found.gap_upper < im->gamma_clear ? contradict(im, error) : IMP_SUCCESS;
 }
 
 /* Ends the pair's window at the horizon, which is inside it, and pushes the later part.
@@ -265,7 +280,8 @@ static bool reserve_trials(impact *im)
 enum { ROOM_OF_STEP = 3 };
 
 /* Lemma. The popped pair's window starts first of all, and outside the windows on the heap no two
- * points are within gamma_clear: so no two are before that start. Children's windows lie in their
+ * points are within gamma_clear, but those of later candidate pairs, which are apart until then: so
+ * no two are before that start. Children's windows lie in their
  * parent's, so the bound never falls. A pair that ends the search is pushed again, so that a
  * smaller gamma can continue from it. A known contact no later than the first window is the answer;
  * it is no earlier than t_lower, since its search began at a window's start, and windows are popped
@@ -294,6 +310,8 @@ imp_code impact_advance(impact *im, impact_state *state, imp_error *error)
     if (code == IMP_SUCCESS) code = expand_pair(im, &expanded, state, error);
     if (code != IMP_SUCCESS || *state != IMPACT_RUNNING) pair_heap_push(&im->heap, &p);
     im->found_candidate = p.candidate_pair;
+    if (code == IMP_SUCCESS && *state == IMPACT_CONTACT && p.window.lo < im->t_lower)
+        return contradict_before(im, p.window.lo, error);
     return code;
 }
 

@@ -17,6 +17,10 @@
 /* Tests the roots of candidate pair `index` and pushes the pair if they may be near. */
 imp_code impact_add_candidate(impact *im, uint32_t index, impact_state *state, imp_error *error);
 
+/* Whether nothing is left to do before the time up to which pairs that are no candidates yet are
+ * apart. */
+bool impact_lacks_candidates(const impact *im);
+
 /* Pops one pair and expands it. On IMP_ERROR_PLUGIN the search is over; its results so far remain
  * valid. */
 imp_code impact_advance(impact *im, impact_state *state, imp_error *error);

@@ -127,6 +127,13 @@ imp_code tree_new_from_root(const tree *t, tree **made, tree_growth *growth, imp
 /* Makes another tree of t's surface at one moment of its times, with its root. */
 imp_code tree_new_at(const tree *t, double moment, tree **made, tree_growth *growth,
                      imp_error *error);
+
+/* Computes a box of all points of t's surface at its times from `from` to `to`, and keeps nothing.
+ * *exists false: it has none of these times. Precondition: t has its root or the root's box. Any
+ * thread. */
+imp_code tree_box_within(const tree *t, double from, double to, bool *exists, double lo[3],
+                         double hi[3], imp_error *error);
+
 size_t tree_own_bytes(const tree *t); /* with its nodes, without its hierarchy of pieces */
 void tree_free(tree *t);
 

@@ -161,6 +161,24 @@ imp_code tree_new_at(const tree *t, double moment, tree **made, tree_growth *gro
     return code;
 }
 
+imp_code tree_box_within(const tree *t, double from, double to, bool *exists, double lo[3],
+                         double hi[3], imp_error *error)
+{
+    tree_plan plan = t->plan;
+    tree_growth growth = {0};
+    if (from > plan.t_start) plan.t_start = from;
+    if (to < plan.t_end) plan.t_end = to;
+    *exists = plan.t_start <= plan.t_end;
+    if (!*exists) return IMP_SUCCESS;
+    tree *within = tree_begin(t->surface, &plan, false);
+    if (within == NULL) return error_set_memory(error);
+    within->pieces = hierarchy_hold(t->pieces); /* bounds over longer times hold */
+    const imp_code code = begin_root(within, &growth, error);
+    if (code == IMP_SUCCESS) tree_box(within, lo, hi);
+    tree_free(within);
+    return code;
+}
+
 size_t tree_own_bytes(const tree *t)
 {
     return tree_bytes(t->begins_with_root) + arena_bytes(&t->nodes) + arena_bytes(&t->nets) +
