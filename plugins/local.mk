@@ -156,6 +156,7 @@ noinst_LTLIBRARIES += plugins/libcommon.la
 plugins_libcommon_la_SOURCES = \
     plugins/common/axis.c plugins/common/axis.h \
     plugins/common/cone_distance.c plugins/common/cone_distance.h \
+    plugins/common/round_distance.c plugins/common/round_distance.h \
     plugins/common/course.c plugins/common/course.h \
     plugins/common/course_internal.h \
     plugins/common/course_table.c \
@@ -295,11 +296,14 @@ plugins_libexpression_la_SOURCES = \
     plugins/expression/operation.c plugins/expression/operation.h \
     plugins/expression/parser.c plugins/expression/parser.h \
     plugins/expression/rules.c plugins/expression/rules.h \
+    plugins/expression/text_form.h \
     plugins/expression/token.c plugins/expression/token.h \
+    plugins/expression/turned_form.c plugins/expression/turned_form.h \
+    plugins/expression/turned_surface.c plugins/expression/turned_surface.h \
     plugins/expression/zeros.c plugins/expression/zeros.h
 noinst_HEADERS += plugins/expression/type.h
 plugins_libexpression_la_LDFLAGS =
-plugins_formula_la_LIBADD = plugins/libexpression.la
+plugins_formula_la_LIBADD = plugins/libexpression.la plugins/libcommon.la
 plugins_map_formula_la_LIBADD = plugins/libexpression.la
 plugins_motion_formula_la_LIBADD = plugins/libexpression.la plugins/libcommon.la
 

@@ -146,6 +146,7 @@ mpfi_suites = \
     tests/unit/test_expression_bounds \
     tests/unit/test_coils \
     tests/unit/test_crowds \
+    tests/unit/test_turned \
     tests/unit/test_round_nets \
     tests/unit/test_round_profiles \
     tests/unit/test_formula \
@@ -255,6 +256,7 @@ tests_unit_test_expression_bounds_SOURCES = tests/unit/test_expression_bounds.c 
     tests/support/expression_oracle.c tests/support/oracle_number.c tests/support/judge.c tests/support/sampling.c
 tests_unit_test_expression_bounds_LDADD = plugins/libexpression.la $(LDADD)
 tests_unit_test_coils_LDADD = plugins/libexpression.la $(LDADD)
+tests_unit_test_turned_LDADD = plugins/libexpression.la plugins/libcommon.la $(LDADD)
 tests_unit_test_round_nets_LDADD = plugins/libpatch.la plugins/libcommon.la $(LDADD)
 tests_unit_test_round_profiles_LDADD = plugins/libpatch.la plugins/libcommon.la $(LDADD)
 

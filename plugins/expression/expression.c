@@ -1,9 +1,9 @@
 /* SPDX-FileCopyrightText: The Impinge authors
  * SPDX-License-Identifier: Apache-2.0 */
 #include "plugins/expression/builder.h"
-#include "plugins/expression/coil_form.h"
 #include "plugins/expression/names.h"
 #include "plugins/expression/parser.h"
+#include "plugins/expression/text_form.h"
 
 #include <assert.h>
 #include <stdio.h>
@@ -128,34 +128,50 @@ static imp_status assemble(const builder *b, size_t variables, const uint16_t ou
     return IMP_STATUS_PARAMETER;
 }
 
+/* Finds what the texts are besides, and what their section computes. */
+static bool find_form(builder *b, const uint16_t out[3], text_form *form, uint16_t section[3])
+{
+    form->kind = TEXT_PLAIN;
+    if (coil_form_find(b, out, &form->coil)) {
+        form->kind = TEXT_COIL;
+        section[0] = section[1] = section[2] = form->coil.radius;
+    } else if (turned_form_find(b, out, &form->turned)) {
+        form->kind = TEXT_TURNED;
+        section[0] = form->turned.radius;
+        section[1] = form->turned.height;
+        section[2] = form->turned.angle;
+    }
+    return form->kind != TEXT_PLAIN;
+}
+
 /* `form` may be NULL. */
 static imp_status compile(const expression_scope *scope, const char *const text[3], builder *b,
-                          allocation *a, expression_program **program, coil_form *form,
-                          expression_program **radius, expression_error *error)
+                          allocation *a, expression_program **program, text_form *form,
+                          expression_program **section, expression_error *error)
 {
     const size_t variables = scope->variable_count;
-    uint16_t out[3];
+    uint16_t out[3], of_section[3];
     if (!read_texts(scope, text, b, out, error)) return IMP_STATUS_PARAMETER;
     imp_status status = assemble(b, variables, out, a, program, error);
-    if (status != IMP_STATUS_OK || form == NULL || !coil_form_find(b, out, form)) return status;
-    const uint16_t same[3] = {form->radius, form->radius, form->radius};
-    status = assemble(b, variables, same, a, radius, error);
+    if (status != IMP_STATUS_OK || form == NULL || !find_form(b, out, form, of_section))
+        return status;
+    status = assemble(b, variables, of_section, a, section, error);
     if (status == IMP_STATUS_OK) return status;
     expression_free(*program);
     *program = NULL;
     return status;
 }
 
-imp_status expression_compile_coil(const expression_scope *scope, const char *const text[3],
-                                   expression_program **program, coil_form *form,
-                                   expression_program **radius, expression_error *error)
+imp_status expression_compile_form(const expression_scope *scope, const char *const text[3],
+                                   expression_program **program, text_form *form,
+                                   expression_program **section, expression_error *error)
 {
     assert(scope->variable_count > 0 && scope->variable_count <= EXPRESSION_VARIABLES_MAX);
     imp_status status = IMP_STATUS_INTERNAL;
     builder *b = malloc(sizeof *b);
     allocation *a = malloc(sizeof *a);
-    if (radius != NULL) *radius = NULL;
-    if (a != NULL && b != NULL) status = compile(scope, text, b, a, program, form, radius, error);
+    if (section != NULL) *section = NULL;
+    if (a != NULL && b != NULL) status = compile(scope, text, b, a, program, form, section, error);
     free(a);
     free(b);
     return status;
@@ -164,7 +180,7 @@ imp_status expression_compile_coil(const expression_scope *scope, const char *co
 imp_status expression_compile(const expression_scope *scope, const char *const text[3],
                               expression_program **program, expression_error *error)
 {
-    return expression_compile_coil(scope, text, program, NULL, NULL, error);
+    return expression_compile_form(scope, text, program, NULL, NULL, error);
 }
 
 /* --- Running ---------------------------------------------------------------------------------- */

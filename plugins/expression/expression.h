@@ -60,12 +60,13 @@ imp_status expression_compile(const expression_scope *scope, const char *const t
                               expression_program **program, expression_error *error);
 void expression_free(expression_program *program);
 
-/* Like expression_compile. *radius becomes the program of R, three times, for the caller to free,
- * if the texts are a coil (coil_form.h), and else NULL. */
-struct coil_form;
-imp_status expression_compile_coil(const expression_scope *scope, const char *const text[3],
-                                   expression_program **program, struct coil_form *form,
-                                   expression_program **radius, expression_error *error);
+/* Like expression_compile. *form becomes what the texts are besides (text_form.h), and *section a
+ * program for the caller to free: of R, three times, if they are a coil, of R, Z and phi, if they
+ * are a surface of revolution, else NULL. */
+struct text_form;
+imp_status expression_compile_form(const expression_scope *scope, const char *const text[3],
+                                   expression_program **program, struct text_form *form,
+                                   expression_program **section, expression_error *error);
 
 /* Operations that a run computes. */
 size_t expression_length(const expression_program *program);

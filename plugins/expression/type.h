@@ -61,16 +61,16 @@ static inline imp_model whole_range(double lo, double hi, int j)
     return imp_model_collapse(range);
 }
 
-/* `form` and `radius` as in expression_compile_coil, or both NULL. */
+/* `form` and `section` as in expression_compile_form, or both NULL. */
 static inline imp_status compile_texts(const imp_value *values, expression_scope *scope,
-                                       expression_program **program, struct coil_form *form,
-                                       expression_program **radius, imp_create_error *why)
+                                       expression_program **program, struct text_form *form,
+                                       expression_program **section, imp_create_error *why)
 {
     const char *const text[3] = {values[TEXT_X].string[0], values[TEXT_Y].string[0],
                                  values[TEXT_Z].string[0]};
     use_constants(&values[CONSTANTS], scope);
     expression_error error;
-    imp_status status = expression_compile_coil(scope, text, program, form, radius, &error);
+    imp_status status = expression_compile_form(scope, text, program, form, section, &error);
     if (status != IMP_STATUS_PARAMETER) return status;
     int row = error.at < 3                          ? TEXT_X + error.at
               : error.at == EXPRESSION_AT_CONSTANTS ? CONSTANTS

@@ -3,32 +3,12 @@
 #ifndef PLUGINS_PATCH_ROUND_PROFILE_H
 #define PLUGINS_PATCH_ROUND_PROFILE_H
 
-#include <impinge/model.h>
-#include <impinge/surface.h>
+#include "plugins/common/round_distance.h"
+
 #include <stddef.h>
 
-/* Profiles of surfaces of revolution that are straight lines or arcs of circles
- * =============================================================================
- * Such a surface lies on a cylinder, a plane, a cone, a ball or a torus, whose distance function is
- * that of the surface, too. Nothing has to be exact: how far the profile is at most from the line
- * or the circle is bounded, and subtracted. */
-
-typedef enum round_kind {
-    ROUND_NONE, /* neither a line nor an arc, or farther from it than ROUND_OFF_MOST permits */
-    ROUND_CYLINDER,
-    ROUND_PLANE,
-    ROUND_CONE,
-    ROUND_CIRCLE /* a torus; a ball if its center is on the axis */
-} round_kind;
-
-typedef struct round_profile {
-    round_kind kind;
-    double radius; /* of the cylinder; of the cone at z = height; of the circle; length */
-    double ring;   /* how far the circle's center is from the axis, perhaps negative; length */
-    double height; /* z of the plane, of the circle's center, of the cone's circle; length */
-    double apex;   /* of the cone above its circle, along z; length */
-    double off;    /* >= how far the profile is from the line or circle; length */
-} round_profile;
+/* Profiles that are rational Bezier curves, and nearly straight lines or arcs of circles
+ * ====================================================================================== */
 
 /* Finds what a rational Bezier curve is that turns about the z axis. `points`: [r, z] of each of
  * the `count` control points, at most 21; weights, positive, may be NULL. Not kept. */
@@ -38,12 +18,5 @@ round_profile round_profile_of(const double *points, const double *weights, size
  * `off` to what that curve is off by. */
 void round_profile_widen(round_profile *p, const double *points, const double *weights,
                          size_t count);
-
-/* Returns the distance of points m (imp_surface_type.distance), beside the point r = z = 0;
- * imp_unbounded of ROUND_NONE. */
-imp_model round_profile_distance(const round_profile *p, const imp_model m[3]);
-
-/* Fills kind and axis of a closed symmetry whose orbits are those of u. */
-void round_profile_symmetry(const round_profile *p, imp_symmetry *symmetry);
 
 #endif

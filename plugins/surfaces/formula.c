@@ -3,6 +3,8 @@
 
 #include "plugins/common/publish.h"
 #include "plugins/expression/coil_surface.h"
+#include "plugins/expression/text_form.h"
+#include "plugins/expression/turned_surface.h"
 #include "plugins/expression/type.h"
 
 #include <impinge/formula.h>
@@ -22,11 +24,12 @@ static const imp_parameter parameters[] = {
 
 typedef struct formula_instance {
     expression_program *program;
-    expression_program *radius; /* of `coil`, or NULL */
-    char *text;                 /* what it prints */
+    expression_program *section; /* of `coil` or `turned`, or NULL */
+    char *text;                  /* what it prints */
     double lo[3], hi[3];
-    coil_surface coil;
-    bool is_coil;
+    text_kind kind;
+    coil_surface coil; /* the one of both that `kind` names */
+    turned_surface turned;
 } formula_instance;
 
 static imp_status read_domain(const imp_value *values, formula_instance *s, imp_create_error *why)
@@ -47,16 +50,27 @@ static imp_status compile(const imp_value *values, formula_instance *s, imp_crea
     imp_model whole[3];
     for (int j = 0; j < 3; ++j) whole[j] = whole_range(s->lo[j], s->hi[j], j);
     expression_scope scope = {.variable = names, .whole = whole, .variable_count = 3};
-    return compile_texts(values, &scope, &s->program, &s->coil.form, &s->radius, why);
+    text_form form = {.kind = TEXT_PLAIN};
+    const imp_status status = compile_texts(values, &scope, &s->program, &form, &s->section, why);
+    if (status != IMP_STATUS_OK) return status;
+    s->kind = form.kind;
+    s->coil.form = form.coil;
+    s->turned.form = form.turned;
+    return status;
 }
 
 static imp_status keep(const imp_value *values, formula_instance *s)
 {
     s->text = keep_texts(write_surface_texts, values, s->lo, s->hi);
-    if (s->text == NULL) expression_free(s->program), expression_free(s->radius);
-    s->coil.radius = s->radius;
-    s->is_coil = s->text != NULL && s->radius != NULL && coil_surface_begin(&s->coil, s->lo, s->hi);
-    return s->text != NULL ? IMP_STATUS_OK : IMP_STATUS_INTERNAL;
+    if (s->text == NULL) {
+        expression_free(s->program);
+        expression_free(s->section);
+        return IMP_STATUS_INTERNAL;
+    }
+    s->coil.radius = s->turned.section = s->section;
+    if (s->kind == TEXT_COIL && !coil_surface_begin(&s->coil, s->lo, s->hi)) s->kind = TEXT_PLAIN;
+    if (s->kind == TEXT_TURNED) turned_surface_begin(&s->turned, s->lo, s->hi);
+    return IMP_STATUS_OK;
 }
 
 static imp_status formula_create(const imp_value *values, void **self, imp_create_error *why)
@@ -77,7 +91,7 @@ static void formula_destroy(void *self)
 {
     formula_instance *s = self;
     expression_free(s->program);
-    expression_free(s->radius);
+    expression_free(s->section);
     free(s->text);
     free(s);
 }
@@ -105,26 +119,32 @@ static imp_status formula_eval(const void *self, size_t n, const double *p, doub
     return expression_points(((const formula_instance *)self)->program, n, p, x, error);
 }
 
-/* --- Coils ------------------------------------------------------------------------------------ */
+/* --- Coils and surfaces of revolution --------------------------------------------------------- */
 
 static imp_model formula_gap(const void *self, imp_model x, imp_model y, imp_model z, imp_model t)
 {
+    const formula_instance *s = self;
     const imp_model at[3] = {x, y, z};
     (void)t;
-    return coil_surface_gap(&((const formula_instance *)self)->coil, at);
+    return s->kind == TEXT_COIL ? coil_surface_gap(&s->coil, at)
+                                : turned_surface_gap(&s->turned, at);
 }
 IMP_DISTANCE_FORMULA(formula_gap)
 
 static imp_status formula_distance(const void *self, const imp_model point[4], imp_model *distance)
 {
-    if (!((const formula_instance *)self)->is_coil) return IMP_STATUS_UNBOUNDED;
+    const formula_instance *s = self;
+    const bool is_round = s->kind == TEXT_TURNED && turned_surface_is_round(&s->turned);
+    if (s->kind != TEXT_COIL && !is_round) return IMP_STATUS_UNBOUNDED;
     return formula_gap_distance(self, point, distance);
 }
 
 static imp_status formula_symmetry(const void *self, imp_symmetry *symmetry)
 {
     const formula_instance *s = self;
-    return s->is_coil ? coil_surface_symmetry(&s->coil, symmetry) : IMP_STATUS_UNBOUNDED;
+    if (s->kind == TEXT_COIL) return coil_surface_symmetry(&s->coil, symmetry);
+    return s->kind == TEXT_TURNED ? turned_surface_symmetry(&s->turned, symmetry)
+                                  : IMP_STATUS_UNBOUNDED;
 }
 
 static imp_status formula_write_formula(const void *self, const imp_text_sink *to)
@@ -142,9 +162,8 @@ static const imp_surface_type formula = {
     .summary = "any surface, given by formulas",
     .equation = "(x, y, z), each a text in u, v, t with + - * / ^, pi, e, constants, and abs sqrt "
                 "cbrt exp log sin cos tan asin acos atan atan2 sinh cosh tanh pow min max hypot "
-                "clamp lerp copysign; no discontinuous functions; a surface of revolution is "
-                "better made by revolution, sphere, cylinder, cone or torus, which know their "
-                "distance and symmetry",
+                "clamp lerp copysign; no discontinuous functions; (R cos a, R sin a, Z), a of one "
+                "of u and v, R and Z of the other, is known to be a surface of revolution",
     .source = NULL,
     .example = "formula x=cos(2*pi*u)*(1+a*sin(t)) y=sin(2*pi*u)*(1+a*sin(t)) z=v "
                "constants={\"a\":0.1}",

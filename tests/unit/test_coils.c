@@ -6,6 +6,7 @@
 #include <string.h>
 
 #include "plugins/expression/coil_surface.h"
+#include "plugins/expression/text_form.h"
 #include "tests/support/suite.h"
 
 /* Formulas that are found to be coils: distances from them, also of points that screw motions have
@@ -41,14 +42,16 @@ static kit kit_of(const coil_text *of)
     const expression_scope scope = {.variable = names, .whole = whole, .variable_count = 3};
     kit k;
     expression_error error;
+    text_form form;
     const imp_status status =
-        expression_compile_coil(&scope, text, &k.program, &k.coil.form, &k.radius, &error);
+        expression_compile_form(&scope, text, &k.program, &form, &k.radius, &error);
     ck_assert_msg(status == IMP_STATUS_OK, "%s | %s | %s: %s", text[0], text[1], text[2],
                   error.message);
     memcpy(k.lo, of->lo, sizeof k.lo);
     memcpy(k.hi, of->hi, sizeof k.hi);
+    k.coil.form = form.coil;
     k.coil.radius = k.radius;
-    k.is_coil = k.radius != NULL && coil_surface_begin(&k.coil, k.lo, k.hi);
+    k.is_coil = form.kind == TEXT_COIL && coil_surface_begin(&k.coil, k.lo, k.hi);
     return k;
 }
 

@@ -85,6 +85,10 @@
 
 #define TURNED(PROFILE) "{'type':'revolution','profile':[" PROFILE "]}"
 #define TURNED_ARC(PROFILE) "{'type':'revolution','weights':[1,1,2],'profile':[" PROFILE "]}"
+/* A surface of revolution by formula: R and Z in v, from FROM to TO. */
+#define TURNED_BY_FORMULA(R, Z, FROM, TO)                                                          \
+    "{'type':'formula','x':'(" R ")*cos(u)','y':'(" R ")*sin(u)','z':'" Z                          \
+    "','domain':[[0,6.283185307179586],[" FROM "," TO "]],'constants':{'r':"
 #define VASE TURNED("[0.6,-1],[1.5,-0.4],[0,0.4],[0.6,1]")
 #define EXTRUSION(PROFILE, HEIGHT)                                                                 \
     "{'type':'extrusion','degree':1,'profile':[" PROFILE "],'vector':[0,0," HEIGHT "]"
@@ -218,6 +222,16 @@ const everyday_family everyday_families[] = {
      TURNED("[~0.9,-0.5],[~0.9,0.5]"),
      TURN(Z_AXIS, "20") ",{'type':'translate','offset':[[0.1,0,0]]}," TURN(Z_AXIS, "5"), BOND_NONE,
      0, false, FIVE, 500, "", ""},
+    {"ball in a groove, by formula",
+     TURNED_BY_FORMULA("3+r*cos(v)", "r*sin(v)", "-0.9", "0.9") "@0.5}}", "",
+     SPHERE("0.5", "3,0,0"), TURN(Z_AXIS, "4"), BOND_NONE, 0, false, FIVE, 10, "", ""},
+    {"taper in a taper, by formula", TURNED_BY_FORMULA("r-0.2*v", "v", "-0.5", "0.5") "@3}}", "",
+     TURNED_BY_FORMULA("r-0.2*v", "v", "-0.5", "0.5") "3}}", TURN(Z_AXIS, "10"), BOND_NONE, 0,
+     false, "1234", 10, "", ""},
+    {"vase that turns in a vase, by formula",
+     TURNED_BY_FORMULA("r+0.2*sin(3*v)", "v+0.1*v^2", "-1", "1") "@1}}", TURN(Z_AXIS, "-7"),
+     TURNED_BY_FORMULA("r+0.2*sin(3*v)", "v+0.1*v^2", "-1", "1") "1}}", TURN(Z_AXIS, "20"),
+     BOND_NONE, 0, false, "1234", 2000, "", ""},
     {"turned plug in a cone", CONE("0"), "", TURNED("[0.75,0.25],[0.5,0.5]"),
      TURN(Z_AXIS, "20") ",{'type':'translate','offset':[[0,0,~0]]}", BOND_NONE, 0, false, FIVE, 100,
      "", ""},
