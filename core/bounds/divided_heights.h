@@ -162,9 +162,12 @@ IMP_QUAD_INLINE double part_measure(const divided_part *p, bool is_flat, double 
     imp_quad low = imp_quad_load(p->x);
     for (int k = IMP_QUAD; k < (last + 1) * row; k += IMP_QUAD)
         low = imp_quad_min(imp_quad_load(p->x + k), low);
-    const double corner[4] = {p->x[0], p->x[last], end[0], end[last]};
-    for (int k = 0; k < 4; ++k)
-        if (corner[k] < *top) *top = corner[k];
+    double least = *top;
+    least = p->x[0] < least ? p->x[0] : least;
+    least = p->x[last] < least ? p->x[last] : least;
+    least = end[0] < least ? end[0] : least;
+    least = end[last] < least ? end[last] : least;
+    *top = least;
     return least_of(low);
 }
 
@@ -274,8 +277,12 @@ IMP_QUAD_INLINE void divided_begin(divided_heights *h, const imp_quad z[4], cons
 static inline int lowest_part(const divided_heights *h)
 {
     int best = 0;
-    for (int k = 1; k < h->count; ++k)
-        if (h->low[k] < h->low[best]) best = k;
+    double least = h->low[0];
+    for (int k = 1; k < h->count; ++k) {
+        if (!(h->low[k] < least)) continue;
+        least = h->low[k];
+        best = k;
+    }
     return best;
 }
 

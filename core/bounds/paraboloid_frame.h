@@ -66,17 +66,20 @@ IMP_QUAD_INLINE void place_rows_of(const net *f, const net_paraboloid *d, double
 {
     const double tau = t - f->time, since = t - d->time;
     const int rows_of_two[2] = {first, 3 - first};
+    const imp_quad at = {d->at.x[0], d->at.x[1], d->at.x[2], 0};
+    const imp_quad velocity = {d->velocity.x[0], d->velocity.x[1], d->velocity.x[2], 0};
+    const imp_quad offset =
+        (imp_quad_load(f->place) - at) +
+        (imp_quad_all(tau) * imp_quad_load(f->drift) - imp_quad_all(since) * velocity);
     imp_quad x[3][2];
     for (int i = 0; i < 3; ++i) {
-        const double offset =
-            (f->place[i] - d->at.x[i]) + (tau * f->drift[i] - since * d->velocity.x[i]);
         rows_of_net(f, f->numbers + i * f->stride, rows_of_two, is_bicubic, x[i]);
         if (f->is_moving) {
             imp_quad v[2];
             rows_of_net(f, f->numbers + (3 + i) * f->stride, rows_of_two, is_bicubic, v);
             for (int k = 0; k < 2; ++k) x[i][k] += imp_quad_all(tau) * v[k];
         }
-        for (int k = 0; k < 2; ++k) x[i][k] += imp_quad_all(offset);
+        for (int k = 0; k < 2; ++k) x[i][k] += imp_quad_all(offset[i]);
     }
     for (int k = 0; k < 2; ++k) {
         const int row = rows_of_two[k];

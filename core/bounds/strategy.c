@@ -12,7 +12,10 @@
 static const double ROUNDING = 0x1p-24; /* remainders below this part are mere rounding */
 
 /* Whether a net may be tighter than the quadratic: false for a bilinear patch without remainder. */
-static bool net_may_be_tighter(const node *n) { return node_bends(n) || node_blurs(n, ROUNDING); }
+static inline bool net_may_be_tighter(const node *n)
+{
+    return node_bends(n) || node_blurs(n, ROUNDING);
+}
 
 /* Whether the node is a point, or a curve that is nearly straight. */
 static bool is_thin(const node *n)

@@ -58,20 +58,28 @@ void pair_heap_push(pair_heap *heap, const pair *p)
     places[hole] = place;
 }
 
+static inline void take_pair(const pair_heap *heap, const pair_place *place, pair *p)
+{
+    p->key[0] = place->key[0];
+    p->key[1] = place->key[1];
+    p->serial = place->serial;
+    memcpy((char *)p + PAIR_REST, &heap->slots[place->slot], sizeof *heap->slots);
+}
+
 pair pair_heap_at(const pair_heap *heap, size_t index)
 {
+    pair p;
     assert(index < heap->count);
-    const pair_place *place = &heap->places[index];
-    pair p = {.key = {place->key[0], place->key[1]}, .serial = place->serial};
-    memcpy((char *)&p + PAIR_REST, &heap->slots[place->slot], sizeof *heap->slots);
+    take_pair(heap, &heap->places[index], &p);
     return p;
 }
 
 pair pair_heap_pop(pair_heap *heap)
 {
     assert(heap->count > 0);
+    pair first;
     pair_place *places = heap->places;
-    const pair first = pair_heap_at(heap, 0);
+    take_pair(heap, &places[0], &first);
     const size_t count = --heap->count, free_slot = places[0].slot;
     const pair_place last = places[count];
     size_t hole = 0;

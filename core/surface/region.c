@@ -39,11 +39,6 @@ imp_region region_make(const double lo[3], const double hi[3])
     return r;
 }
 
-bool region_can_split(const imp_region *region, parameter j)
-{
-    return region->lo[j] < region->c[j] && region->c[j] < region->hi[j];
-}
-
 void region_set_half(imp_region *half, const imp_region *region, parameter j, int side)
 {
     assert(region_can_split(region, j));

@@ -16,7 +16,10 @@ void region_set(imp_region *region, const double lo[3], const double hi[3]);
 imp_region region_make(const double lo[3], const double hi[3]);
 
 /* Whether a double lies strictly inside the interval of parameter j. */
-bool region_can_split(const imp_region *region, parameter j);
+static inline bool region_can_split(const imp_region *region, parameter j)
+{
+    return region->lo[j] < region->c[j] && region->c[j] < region->hi[j];
+}
 
 /* The half of the region below (side 0) or above (side 1) its centre along j. The two
  * share the identical split value. Precondition: region_can_split. */

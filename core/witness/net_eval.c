@@ -141,11 +141,16 @@ IMP_QUAD_INLINE imp_quad totals(imp_quad a, imp_quad b, imp_quad c, imp_quad d)
     return (imp_quad){ab[0], ab[1], cd[0], cd[1]} + (imp_quad){ab[2], ab[3], cd[2], cd[3]};
 }
 
-/* Returns the sum of four rows, each times its number. */
-IMP_QUAD_INLINE imp_quad rows_by(const imp_quad x[4], const double f[4])
+/* Computes the sum of four rows, each times its number, for each coordinate of a net's points. */
+IMP_QUAD_INLINE void rows_by(const net_points *of, bool is_weighted, const double f[4],
+                             imp_quad sum[4])
 {
-    return (imp_quad_all(f[0]) * x[0] + imp_quad_all(f[1]) * x[1]) +
-           (imp_quad_all(f[2]) * x[2] + imp_quad_all(f[3]) * x[3]);
+    const imp_quad f0 = imp_quad_all(f[0]), f1 = imp_quad_all(f[1]), f2 = imp_quad_all(f[2]),
+                   f3 = imp_quad_all(f[3]);
+    for (int i = 0; i < (is_weighted ? 4 : 3); ++i) {
+        const imp_quad *x = of->x[i];
+        sum[i] = (f0 * x[0] + f1 * x[1]) + (f2 * x[2] + f3 * x[3]);
+    }
 }
 
 /* Returns the sums over v of each row of a bicubic patch times four numbers. */
@@ -162,11 +167,9 @@ IMP_QUAD_INLINE void bicubic_sums(const net_points *f, bool is_weighted, const c
 {
     const cubics *u = &at[0], *v = &at[1];
     imp_quad x[4], xu[4], xuu[4];
-    for (int i = 0; i < (is_weighted ? 4 : 3); ++i) {
-        x[i] = rows_by(f->x[i], u->value);
-        xu[i] = rows_by(f->x[i], u->first);
-        xuu[i] = rows_by(f->x[i], u->second);
-    }
+    rows_by(f, is_weighted, u->value, x);
+    rows_by(f, is_weighted, u->first, xu);
+    rows_by(f, is_weighted, u->second, xuu);
     const imp_quad value = imp_quad_load(v->value), first = imp_quad_load(v->first);
     sum[NET_VALUE] = columns_by(x, value, is_weighted);
     sum[NET_U] = columns_by(xu, value, is_weighted);
