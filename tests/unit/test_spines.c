@@ -374,12 +374,59 @@ START_TEST(distances_of_spines_that_are_too_large_are_found)
 }
 END_TEST
 
+/* Surfaces that are as near as some points that were found, at one of the times from 0 to 1. Each
+ * was told apart by spines once one step of a lemma was left out: a part of a remainder, the first
+ * times, or what holds between points that are claimed one by one. */
+static const struct {
+    const char *text[2];
+    double apart;
+} found[] = {
+    {{"supertoroid major_radius=0.71239 minor_radius=0.19123 exponents=0.57194,1.09697 ! rotate "
+      "axis=-0.18753,-0.53718,-0.85117 angle=-0.59062 ! rotate angle=-0.42683,19.61927,2.82684",
+      "thread radius=1.37032 height=3 ! translate offset=[[0.175853279,0.189190732,-1.7445e-05]]"},
+     0.11069894856},
+    {{"thread radius=0.62306 profile=0.06125,-0.04256 pitch=0.77635 starts=3 height=0.20295 "
+      "center=0.07109,0.10169,-0.03749 ! rotate rate=-2.12573 ! translate "
+      "velocity=-0.20466,0.13234,-0.11143",
+      "box size=0.5,1,1 center=1.001549057,0.00019489,-9.1193e-05"},
+     0.0037227608},
+    {{"thread radius=1.61713 height=3",
+      "thread radius=0.86919 profile=0.0541,-0.04714 pitch=0.57433 height=1.07127 "
+      "center=0.08464,-0.26376,0.16675 ! translate offset=[[0.1,-0.07338,0.02311]] ! rotate "
+      "angle=-0.22055,8.79754,2.55348"},
+     0.20864952138}};
+
+START_TEST(spines_show_no_more_than_the_distance_of_points)
+{
+    static const double parts[] = {0.5, 0.9, 0.99, 1.000001, 1.001};
+    for (size_t k = 0; k < sizeof found / sizeof *found; ++k) {
+        trial y;
+        imp_error error;
+        double lower, hope;
+        memset(&y, 0, sizeof y);
+        for (int j = 0; j < 2; ++j) strcpy(y.text[j], found[k].text[j]);
+        trial_open(&y, registry, 0, 1);
+        for (size_t j = 0; j < sizeof parts / sizeof *parts; ++j) {
+            const double limit = parts[j] * found[k].apart;
+            ck_assert_int_eq(spine_part(&y.of, &y.times, limit, &lower, &hope, &error),
+                             IMP_SUCCESS);
+            ck_assert_msg(lower <= found[k].apart, "scene %zu: %.17g, limit %.17g", k, lower,
+                          limit);
+            if (j == 0) ck_assert_double_gt(lower, limit);
+        }
+        trial_end(&y);
+    }
+}
+END_TEST
+
 int main(void)
 {
-    const TTest *const tests[] = {
-        all_points_are_within_the_radius, radii_that_are_too_small_are_found,
-        spines_are_where_their_models_say, no_points_are_nearer_than_spines_show,
-        distances_of_spines_that_are_too_large_are_found};
+    const TTest *const tests[] = {all_points_are_within_the_radius,
+                                  radii_that_are_too_small_are_found,
+                                  spines_are_where_their_models_say,
+                                  no_points_are_nearer_than_spines_show,
+                                  distances_of_spines_that_are_too_large_are_found,
+                                  spines_show_no_more_than_the_distance_of_points};
     return suite_main_with("spines", tests, sizeof tests / sizeof tests[0], open_registry,
                            close_registry);
 }
