@@ -309,6 +309,7 @@ tools_impinge_verify_SOURCES = \
     tools/cli/output_target.c tools/cli/output_target.h \
     tools/verify/complain.c \
     tools/verify/coq.c tools/verify/coq.h \
+    tools/verify/coq_goal.c tools/verify/coq_goal.h \
     tools/verify/coq_term.c tools/verify/coq_term.h \
     tools/verify/coq_text.c tools/verify/coq_text.h \
     tools/verify/main.c \
@@ -363,6 +364,8 @@ tools_libverify_la_SOURCES = \
     tools/verify/statement_stage.c \
     tools/verify/tighten.c tools/verify/tighten.h \
     tools/verify/walk.c tools/verify/walk.h \
+    tools/verify/walk_internal.h tools/verify/walk_points.c \
+    tools/verify/walk_tree.c \
     tools/verify/words.c tools/verify/words.h
 tools_libverify_la_CPPFLAGS = $(AM_CPPFLAGS) -DPROOF_DOUBLE
 tools_libverify_la_LIBADD = tools/libkernel.la $(MPFI_LIBS) -lm
