@@ -138,6 +138,7 @@ mpfi_suites = \
     tests/unit/test_kernel \
     tests/unit/test_certificate_round \
     tests/unit/test_certificate_turns \
+    tests/unit/test_certificate_orbits \
     tests/unit/test_certificate_changes \
     tests/unit/test_proof_memory \
     tests/unit/test_plugins \
@@ -250,6 +251,8 @@ tests_unit_test_certificate_round_CPPFLAGS = $(AM_CPPFLAGS) -DPROOF_DOUBLE
 tests_unit_test_certificate_round_LDADD = tools/libverify.la $(LDADD)
 tests_unit_test_certificate_turns_CPPFLAGS = $(AM_CPPFLAGS) -DPROOF_DOUBLE
 tests_unit_test_certificate_turns_LDADD = tools/libverify.la $(LDADD)
+tests_unit_test_certificate_orbits_CPPFLAGS = $(AM_CPPFLAGS) -DPROOF_DOUBLE
+tests_unit_test_certificate_orbits_LDADD = tools/libverify.la $(LDADD)
 tests_unit_test_certificate_changes_CPPFLAGS = $(AM_CPPFLAGS) -DPROOF_DOUBLE
 tests_unit_test_certificate_changes_LDADD = tools/libverify.la $(LDADD)
 tests_unit_test_expression_bounds_SOURCES = tests/unit/test_expression_bounds.c \

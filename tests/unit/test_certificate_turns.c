@@ -157,6 +157,8 @@ START_TEST(turns_and_circles_are_known_as_such)
         {"C = cos(u); C*C; sin(u); v", "C = cos(t); C*x; y*C*sin(t); z", false, false},
         {"cos(u); sin(2*u); v", "x*cos(t) - y*sin(2*t); y; z", false, false},
         {"abs(cos(u)); sin(u); v", "x*max(cos(t), 0); y; z", false, false},
+        {"min(cos(u), 0.5); sin(u); v", "x*max(cos(t), 0.5); y; z", false, false},
+        {"cos(u)*sin(u); sin(u); v", "x*cos(t) + y*cos(t)*sin(t); y; z", false, false},
         {"cos(u + v); sin(u + v); v", "A = t + x; cos(A); y; z", false, false},
         {"cos(u) + 0/cos(u); sin(u); v", "x*cos(t) + 0*sqrt(cos(t)); y; z", false, false},
         {"A = u + 0*log(u - 0.1); cos(A); sin(A); v", "A = log(t); x*cos(A); y; z", false, false},
