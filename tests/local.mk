@@ -139,6 +139,7 @@ mpfi_suites = \
     tests/unit/test_certificate_round \
     tests/unit/test_certificate_turns \
     tests/unit/test_certificate_orbits \
+    tests/unit/test_certificate_parts \
     tests/unit/test_certificate_changes \
     tests/unit/test_proof_memory \
     tests/unit/test_plugins \
@@ -253,6 +254,8 @@ tests_unit_test_certificate_turns_CPPFLAGS = $(AM_CPPFLAGS) -DPROOF_DOUBLE
 tests_unit_test_certificate_turns_LDADD = tools/libverify.la $(LDADD)
 tests_unit_test_certificate_orbits_CPPFLAGS = $(AM_CPPFLAGS) -DPROOF_DOUBLE
 tests_unit_test_certificate_orbits_LDADD = tools/libverify.la $(LDADD)
+tests_unit_test_certificate_parts_CPPFLAGS = $(AM_CPPFLAGS) -DPROOF_DOUBLE
+tests_unit_test_certificate_parts_LDADD = tools/libverify.la $(LDADD)
 tests_unit_test_certificate_changes_CPPFLAGS = $(AM_CPPFLAGS) -DPROOF_DOUBLE
 tests_unit_test_certificate_changes_LDADD = tools/libverify.la $(LDADD)
 tests_unit_test_expression_bounds_SOURCES = tests/unit/test_expression_bounds.c \

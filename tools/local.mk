@@ -339,6 +339,7 @@ tools_libverify_la_SOURCES = \
     tools/verify/apart_round.c tools/verify/apart_centre.c \
     tools/verify/elaborate.c tools/verify/elaborate.h \
     tools/verify/enclose.c tools/verify/enclose.h \
+    tools/verify/enclose_parts.c \
     tools/verify/input.c tools/verify/input.h \
     tools/verify/jumps.c tools/verify/jumps.h \
     tools/verify/look.c tools/verify/look.h \
