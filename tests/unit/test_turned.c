@@ -94,12 +94,39 @@ static double nearest(const kit *k, const double x[3])
     return least;
 }
 
+/* The least distance of x from the circle of p, which is whole: by samples, then by steps that are
+ * halved, beyond the ends on from the other one. */
+static double from_circle(const kit *k, const double p[3], const double x[3])
+{
+    enum { SAMPLES = 64 };
+    const int j = k->turned.form.around;
+    const double lo = k->lo[j], hi = k->hi[j];
+    double at[3] = {p[0], p[1], 0}, best = lo, least = INFINITY;
+    for (int n = 0; n < SAMPLES; ++n) {
+        at[j] = lo + (hi - lo) * n / SAMPLES;
+        const double now = apart(k, at, x);
+        if (now < least) least = now, best = at[j];
+    }
+    for (double step = (hi - lo) / SAMPLES; step > 1e-14;) {
+        const double before = least;
+        for (int way = -1; way <= 1; way += 2) {
+            at[j] = best + way * step;
+            if (at[j] < lo) at[j] += hi - lo;
+            if (at[j] > hi) at[j] -= hi - lo;
+            const double now = apart(k, at, x);
+            if (now < least) least = now, best = at[j];
+        }
+        if (!(least < before)) step *= 0.5;
+    }
+    return least;
+}
+
 /* --- Random surfaces -------------------------------------------------------------------------- */
 
 /* A line, an arc, an arc that meets the axis, one that is a little off, or a wave. */
 static void draw_profile(uint64_t *random, const char *v, char radius[120], char height[120])
 {
-    const double a = random_between(random, 0.5, 2), b = random_between(random, -0.4, 0.4),
+    const double a = random_between(random, 0.05, 2), b = random_between(random, -2, 2),
                  c = random_between(random, 0.2, 0.45), d = random_between(random, -1, 1);
     switch (random_bits(random) % 6) {
     case 0:
@@ -147,7 +174,7 @@ static turned_text draw_text(uint64_t *random)
     of.lo[around] = 0;
     of.hi[around] = (is_open ? 0.6 : 1) * (in_turns ? 1 : 6.283185307179586);
     of.lo[1 - around] = -1 + 0.3 * random_fraction(random);
-    of.hi[1 - around] = 1.25;
+    of.hi[1 - around] = random_between(random, -0.5, 4); /* R is 0 somewhere, or not */
     return of;
 }
 
@@ -186,7 +213,7 @@ static void judge(const kit *k, uint64_t *random, double factor, tally *of)
         double x[3];
         ck_assert_int_eq(expression_point(k->program, p, x, NULL), IMP_STATUS_OK);
         if (is_closed) turn(&symmetry, random_between(random, -4, 4), x);
-        const double left = is_closed ? nearest(k, x) : 0;
+        const double left = is_closed ? from_circle(k, p, x) : 0;
         if (left > of->off) of->off = left;
         const double off = random_power(random, -16, 1);
         for (int i = 0; i < 3; ++i) x[i] += off * random_between(random, -1, 1);
@@ -219,8 +246,8 @@ START_TEST(no_point_is_nearer_than_is_claimed)
 {
     const tally of = try_all(1);
     ck_assert_msg(of.refuted == 0, "of %d %d are refuted", of.judged, of.refuted);
-    ck_assert_msg(of.round > TEXTS / 2 && of.round < of.turned, "%d of %d", of.round, of.turned);
-    ck_assert_msg(of.closed > TEXTS / 2 && of.closed < of.turned, "%d are closed", of.closed);
+    ck_assert_msg(of.round > TEXTS / 3 && of.round < of.turned, "%d of %d", of.round, of.turned);
+    ck_assert_msg(of.closed > TEXTS / 3 && of.closed < of.turned, "%d are closed", of.closed);
     ck_assert_msg(of.sharpest > 0.99, "%g of a distance is claimed at most", of.sharpest);
     ck_assert_msg(of.off < 1e-8, "rotations take a point off the surface by %g", of.off);
 }
