@@ -11,23 +11,31 @@
 /* Strips of a sweep
  * =================
  * A sweep along one axis compares each box with all that overlap it there: of n bodies spread in
- * space that is n^(5/3) pairs of boxes. Strips divide a second axis, and a box is compared within
- * the few strips that it lies in: n^(4/3). A box in more than STRIPS_OF_BOX of them is wide, and
- * compared with all that overlap it along the first axis. */
+ * space that is n^(5/3) pairs of boxes. Strips divide the other two axes, and a box is compared
+ * within the few columns, each of one strip of either axis, that it lies in. A box in more than
+ * STRIPS_OF_BOX strips of an axis is wide, and compared with all that overlap it along the first
+ * axis. */
 
 enum {
     STRIPS_OF_BOX = 4,
     STRIPS_BOXES_LEAST = 256 /* fewer boxes are swept without strips */
 };
 
+/* Where a box lies along either axis. */
+typedef struct strips_of_box {
+    uint16_t first[2]; /* strip, */
+    uint8_t length[2]; /* and in how many it lies; 0: it is wide */
+} strips_of_box;
+
 typedef struct strips {
-    size_t count;    /* 0: the sweep has none, because there are too few boxes or all are wide */
-    uint32_t *start; /* of each strip's list in `box`, and the end of the last */
+    size_t count[2]; /* of strips along either axis; 0: the sweep has none, because there are too
+                        few boxes or all are wide */
+    uint32_t *start; /* of each column's list in `box`, and the end of the last; columns of one
+                        strip of the first of these axes are neighbours */
     uint32_t *box;   /* numbers of sorted boxes; each list ascends */
     uint32_t *wide;  /* numbers of the wide boxes, ascending */
     size_t wide_count;
-    uint8_t *length; /* for each sorted box: in how many strips it lies; 0: it is wide */
-    uint32_t *first; /* for each sorted box: the first of these */
+    strips_of_box *of; /* for each sorted box */
     arena_store *store;
 } strips; /* begins as {0} */
 
