@@ -142,7 +142,7 @@ static imp_code collect_pairs(collection *all, bool *done, imp_error *error)
     if (all->is_nearest && all->list->count > ROOTS_AT_ONCE) collection_limit_distance(all);
     if (may_wait(all)) {
         all->list->later = later_pairs_new(all->list->store, all->options->t_start);
-        if (all->list->later == NULL) return error_set_memory(error);
+        if (all->list->later == NULL) return *done = false, error_set_memory(error);
     }
     *done = collection_add_pairs(all);
     if (all->out_of_memory) return error_set_memory(error);

@@ -111,11 +111,22 @@ imp_code query_collect(imp_query *query, double start, imp_error *error)
     return code;
 }
 
-/* If a limit ends it, the next step starts it again. Lemma. Slips of later pairs only raise
- * gamma_clear: what was proved of earlier pairs holds for their own slips. */
-imp_code query_collect_more(imp_query *query, imp_error *error)
+/* Lemma. Slips of later pairs only raise gamma_clear: what was proved of earlier pairs holds for
+ * their own slips. */
+imp_code query_take_candidates(imp_query *query, imp_error *error)
 {
     impact *im = &query->impact;
+    const candidate_list *list = &query->candidates;
+    im->gamma_clear = query_searched_gamma_clear(query, query->gamma_clear);
+    if (!impact_take_candidates(im, list->pairs, list->pair_count)) return error_set_memory(error);
+    im->apart_until = candidates_apart_until(list);
+    return IMP_SUCCESS;
+}
+
+/* If a limit ends it, the next step starts it again. */
+imp_code query_collect_more(imp_query *query, imp_error *error)
+{
+    const impact *im = &query->impact;
     candidate_list *list = &query->candidates;
     collecting c = {.query = query,
                     .seconds_before = query->step_from[0],
@@ -128,11 +139,7 @@ imp_code query_collect_more(imp_query *query, imp_error *error)
     const imp_code code = candidates_more(list, query->scene, &query->options, &search, &limit,
                                           until, &query->stats, &done, error);
     if (code == IMP_SUCCESS && !done) query_finish(query, IMP_VERDICT_UNDECIDED, c.reason);
-    if (code != IMP_SUCCESS || !done) return code;
-    im->gamma_clear = query_searched_gamma_clear(query, query->gamma_clear);
-    if (!impact_take_candidates(im, list->pairs, list->pair_count)) return error_set_memory(error);
-    im->apart_until = candidates_apart_until(list);
-    return IMP_SUCCESS;
+    return code == IMP_SUCCESS && done ? query_take_candidates(query, error) : code;
 }
 
 imp_code query_collect_part(imp_query *part, const imp_query *whole, size_t index, imp_error *error)

@@ -95,7 +95,9 @@ imp_code query_search_contact(imp_query *query, imp_error *error)
     impact_state state = IMPACT_RUNNING;
     imp_code code = IMP_SUCCESS;
     if (query_may_be_inside(query)) return query_look_inside(query, error);
-    if (query->candidates_tested < query->candidates.pair_count) {
+    if (query->impact.candidate_pair_count < query->candidates.pair_count) {
+        code = query_take_candidates(query, error);
+    } else if (query->candidates_tested < query->candidates.pair_count) {
         pair_test_look_ahead(&query->impact, (uint32_t)query->candidates_tested,
                              query->candidates.pair_count, &query->options);
         code =

@@ -111,6 +111,10 @@ imp_code query_search_contact(imp_query *query, imp_error *error);
  * the step began. */
 imp_code query_collect(imp_query *query, double start, imp_error *error);
 
+/* Lets the search have the candidates that were added. IMP_ERROR_MEMORY: it has those before, and
+ * this is to be called again. */
+imp_code query_take_candidates(imp_query *query, imp_error *error);
+
 /* Adds pairs that come near only later to the candidates, unless a limit comes first, which ends
  * the query. */
 imp_code query_collect_more(imp_query *query, imp_error *error);

@@ -130,6 +130,88 @@ END_TEST
 START_TEST(so_is_the_papers_method) { fail_queries(IMP_BASELINE_BOXES); }
 END_TEST
 
+/* --- A crowd ---------------------------------------------------------------------------------- */
+
+enum { SIDE = 9, CROWD = SIDE * SIDE * 7 }; /* more than have roots at once */
+
+/* Balls that fly at will, most through the boxes of many others; every fifth for some time only. */
+static imp_scene *make_crowd(void)
+{
+    static ball balls[CROWD];
+    uint64_t state = 5;
+    imp_scene *scene = scene_new();
+    for (int k = 0; k < CROWD && scene != NULL; ++k) {
+        ball *b = &balls[k];
+        *b = (ball){.radius = 0.3,
+                    .centre = {1.5 * (k % SIDE), 1.5 * (k / SIDE % SIDE), 1.5 * (k / SIDE / SIDE)}};
+        for (int i = 0; i < 3; ++i) b->velocity[i] = random_between(&state, -3, 3);
+        if (k % 5 == 0) b->start = 0.05, b->end = 0.4;
+        ck_assert_int_eq(spheres_add(scene, &ball_type, b), IMP_SUCCESS);
+    }
+    return scene;
+}
+
+/* Returns the first of the contacts of each two bodies. */
+static imp_result first_contact(void)
+{
+    imp_scene *scene = make_crowd();
+    const imp_options options = options_of(scene, IMP_BASELINE_NONE);
+    imp_query *query = imp_query_new(scene, &options, NULL);
+    imp_result first = {.t = INFINITY};
+    size_t parts;
+    ck_assert_int_eq(imp_query_divide(query, &parts, NULL), IMP_SUCCESS);
+    ck_assert_uint_gt(parts, CROWD); /* so that pairs wait (candidates_more.c) */
+    for (size_t k = 0; k < parts; ++k) {
+        imp_query *part = imp_query_part(query, k, NULL);
+        ck_assert_int_eq(imp_query_step(part, 0, NULL), IMP_SUCCESS);
+        const imp_result r = imp_query_result(part);
+        if (r.verdict == IMP_VERDICT_CONTACT && r.t < first.t) first = r;
+        imp_query_free(part);
+    }
+    imp_query_free(query);
+    imp_scene_free(scene);
+    return first;
+}
+
+/* Returns how many allocations were made up to the end, or the failing one. */
+static size_t crowd_failing_at(size_t n, const imp_result *first)
+{
+    imp_scene *scene = make_crowd();
+    const imp_options options = options_of(scene, IMP_BASELINE_NONE);
+    imp_query *query = imp_query_new(scene, &options, NULL);
+    alloc_failure_begin(n);
+    const imp_code code = imp_query_step(query, 0, NULL);
+    const size_t calls = alloc_failure_calls();
+    const bool failed = alloc_failure_end() && n > 0;
+    imp_result r = imp_query_result(query);
+    ck_assert_int_eq(code, IMP_SUCCESS);
+    ck_assert_msg((r.verdict == IMP_VERDICT_UNDECIDED) == failed && r.t_lower <= first->t,
+                  "failing allocation %zu", n);
+    ck_assert_int_eq(imp_query_step(query, 0, NULL), IMP_SUCCESS);
+    r = imp_query_result(query);
+    ck_assert_int_eq(r.verdict, IMP_VERDICT_CONTACT);
+    ck_assert(r.t == first->t && r.gap == first->gap && r.a.u == first->a.u);
+    ck_assert(r.a.body == first->a.body && r.b.body == first->b.body);
+    imp_query_free(query);
+    imp_scene_free(scene);
+    return calls;
+}
+
+/* All trees are made first, one allocation each; each stretch of time makes as many boxes. */
+START_TEST(a_crowd_goes_on_to_the_first_contact_of_each_two_bodies)
+{
+    const imp_result first = first_contact();
+    const size_t before = alloc_failure_live(), all = crowd_failing_at(0, &first);
+    ck_assert_uint_gt(all, 4 * CROWD); /* several stretches */
+    for (size_t n = CROWD; n <= all; n += n % CROWD < 64 ? 1 : 67) {
+        crowd_failing_at(n, &first);
+        assert_nothing_left(before, n);
+    }
+}
+END_TEST
+
+/* --- At once ---------------------------------------------------------------------------------- */
+
 START_TEST(solving_at_once_tells_of_memory_too)
 {
     imp_scene *scene = make_scene();
@@ -255,6 +337,7 @@ END_TEST
 
 SUITE_MAIN("query_memory", a_scene_is_whole_or_not_there,
            a_query_out_of_memory_is_undecided_with_what_is_proved_and_can_go_on,
-           so_is_the_papers_method, solving_at_once_tells_of_memory_too,
+           so_is_the_papers_method, a_crowd_goes_on_to_the_first_contact_of_each_two_bodies,
+           solving_at_once_tells_of_memory_too,
            a_clearance_out_of_memory_keeps_its_brackets_and_can_go_on,
            scenes_in_turn_use_the_same_pages)
