@@ -126,6 +126,13 @@ static imp_code request_nets(impact *im, pair *p, imp_error *error)
     return code;
 }
 
+/* Whether a pair that starts then is the first of all, with those that are no candidates yet. */
+static bool is_first(const impact *im, double start)
+{
+    return start < im->apart_until &&
+           (im->heap.count == 0 || !(start > pair_heap_first(&im->heap)));
+}
+
 /* Completes the test of a popped pair that had only its first test. False: it is pruned, or was
  * pushed again with a later start, and the step is over. */
 static bool complete_test(impact *im, pair *p)
@@ -134,8 +141,7 @@ static bool complete_test(impact *im, pair *p)
     const bool near = pair_test_fully(im, p);
     pair_note_test(im->proof, p, near);
     if (!near) return false;
-    const bool first = im->heap.count == 0 || !(p->window.lo > pair_heap_first(&im->heap));
-    if (first && !(im->upper.is_known && p->window.lo >= im->upper.t)) {
+    if (is_first(im, p->window.lo) && !(im->upper.is_known && p->window.lo >= im->upper.t)) {
         if (p->window.lo > im->t_lower) im->t_lower = p->window.lo;
         p->key[0] = p->window.lo;
         return true;

@@ -215,12 +215,65 @@ START_TEST(a_crowd_is_refined_to_the_answer_of_a_new_query)
 }
 END_TEST
 
+/* --- A pair that starts later than it seemed -------------------------------------------------- */
+
+#define SHEET                                                                                      \
+    "{\"type\":\"plane\",\"origin\":[-0.5,0.5,-50],\"edge_u\":[1,-1,0],\"edge_v\":[0,0,1]}"
+#define SHEETS "{\"surfaces\":[" SHEET "," SHEET "," SHEET "," SHEET "]"
+
+/* Stacks of sheets whose boxes overlap from the start, but which meet across them at 5/6; two balls
+ * that meet at 0.2 and whose boxes are apart at first; and balls that drift side by side, through
+ * the boxes of many others. */
+static imp_scene *drifting_crowd(void)
+{
+    char *text = NULL;
+    size_t length;
+    FILE *out = open_memstream(&text, &length);
+    ck_assert_ptr_nonnull(out);
+    fputs("{\"time\":[0,1],\"bodies\":[" SHEETS "}," SHEETS ",\"maps\":[{\"type\":\"translate\","
+          "\"offset\":[[0.5,0.5,0],[-0.6,-0.6,0]]}]},"
+          "{\"surfaces\":[{\"type\":\"sphere\",\"radius\":0.1,\"center\":[-30,0,0]}]},"
+          "{\"surfaces\":[{\"type\":\"sphere\",\"radius\":0.1,\"center\":[-32.2,0,0]}],"
+          "\"maps\":[{\"type\":\"translate\",\"velocity\":[10,0,0]}]}",
+          out);
+    for (int k = 0; k < BODIES; ++k)
+        fprintf(out,
+                ",{\"surfaces\":[{\"type\":\"sphere\",\"radius\":0.1,\"center\":[%d,%d,%d]}],"
+                "\"maps\":[{\"type\":\"translate\",\"velocity\":[8,8,8]}]}",
+                k % 9, k / 9 % 9, k / 81);
+    fputs("]}", out);
+    ck_assert_int_eq(fclose(out), 0);
+    imp_scene *scene = read_scene(text);
+    free(text);
+    return scene;
+}
+
+START_TEST(a_pair_whose_full_test_cuts_its_window_waits_for_pairs_that_come_near_before)
+{
+    imp_scene *scene = drifting_crowd();
+    imp_query *query = begin(scene);
+    imp_result r;
+    do {
+        ck_assert_int_eq(imp_query_step(query, 1, NULL), IMP_SUCCESS);
+        r = imp_query_result(query);
+        ck_assert_double_le(r.t_lower, 0.2);
+    } while (r.reason == IMP_REASON_RUNNING);
+    ck_assert_int_eq(r.verdict, IMP_VERDICT_CONTACT);
+    ck_assert(r.a.body == 2 && r.b.body == 3);
+    ck_assert_double_eq_tol(r.t, 0.2, 1e-4);
+    imp_query_free(query);
+    imp_scene_free(scene);
+}
+END_TEST
+
 int main(void)
 {
-    const TTest *const tests[] = {a_crowd_s_first_contact_is_the_first_of_each_two_bodies,
-                                  contacts_follow_in_the_order_of_each_two_bodies_up_to_the_end,
-                                  each_later_contact_waits_and_no_pair_that_waits_meets_before,
-                                  a_crowd_is_refined_to_the_answer_of_a_new_query};
+    const TTest *const tests[] = {
+        a_crowd_s_first_contact_is_the_first_of_each_two_bodies,
+        contacts_follow_in_the_order_of_each_two_bodies_up_to_the_end,
+        each_later_contact_waits_and_no_pair_that_waits_meets_before,
+        a_crowd_is_refined_to_the_answer_of_a_new_query,
+        a_pair_whose_full_test_cuts_its_window_waits_for_pairs_that_come_near_before};
     return suite_main_with("crowds", tests, sizeof tests / sizeof *tests, open_registry,
                            close_registry);
 }
