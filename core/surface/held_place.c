@@ -218,6 +218,44 @@ static imp_status find_near(const search *q, int sample, double *found)
     return status == IMP_STATUS_OK && sample == 0 ? take_nearer_end(q, found) : status;
 }
 
+enum { FINE_PARTS = 4096 };
+
+/* Finds the parameter where the curve may run around so fast in places, or back, that the point is
+ * not between the nearest samples: wherever the turn that is left changes its sign, until the point
+ * there is within `off`, or else the nearest of these. */
+static imp_status find_anywhere(const search *q, double off, double *found)
+{
+    double least = INFINITY, left[2];
+    imp_status status = left_at(q, q->on.lo, &left[0]);
+    for (int k = 0; k < FINE_PARTS && status == IMP_STATUS_OK && !(least <= off); ++k) {
+        const double width = (q->on.hi - q->on.lo) / FINE_PARTS;
+        double w[2] = {q->on.lo + width * k,
+                       k + 1 < FINE_PARTS ? q->on.lo + width * (k + 1) : q->on.hi};
+        double x[3];
+        const double before = left[0];
+        status = left_at(q, w[1], &left[1]);
+        left[0] = left[1];
+        if (status != IMP_STATUS_OK || (before > 0) == (left[1] > 0)) continue;
+        status = halve(q, w, left[1] > 0);
+        if (status == IMP_STATUS_OK) status = curve_at(&q->on, w[0], x);
+        if (status == IMP_STATUS_OK && distance_between(x, q->to) < least)
+            least = distance_between(x, q->to), *found = w[0];
+    }
+    return status;
+}
+
+/* How far the point at p is from `there`, and how far it may be. */
+static imp_status compare(const surface *s, const double p[3], const double there[3], double slip,
+                          double *apart, double *off)
+{
+    double x[3], error[3];
+    const imp_status status = surface_eval(s, 1, p, x, error);
+    if (status != IMP_STATUS_OK) return status;
+    *apart = distance_between(x, there);
+    *off = slip + 2 * (error[0] + error[1] + error[2]);
+    return status;
+}
+
 /* Lemma. By that of slip_first_maps, P(t0) y and P(t) S y are within the slip, with a rotation S
  * about the line. S takes y to a point of its own circle, which is there (surface_around_line), or
  * to within the slack of one with the same other parameter: that is part of the slip. So the points
@@ -229,18 +267,21 @@ imp_status surface_held_place(const surface *s, held_maps held, size_t maps, dou
     imp_symmetry line;
     search q;
     int sample;
-    double p[3] = {*u, *v, t}, there[3], found[3], error[3];
+    double p[3] = {*u, *v, t}, there[3], apart = INFINITY, off = 0;
     imp_status status = surface_symmetry(s, &line);
     if (status != IMP_STATUS_OK) return status;
     if (orbit_of(&line) < 0) return SURFACE_NOT_CLOSED;
+    memcpy(there, x, sizeof there);
     status = begin(s, held, &line, p, &q);
+    if (status == IMP_STATUS_OK) status = surface_move_outward(s, maps, t, 1, there);
     if (status == IMP_STATUS_OK) status = nearest_sample(&q, &sample);
     if (status == IMP_STATUS_OK) status = find_near(&q, sample, &p[q.on.along]);
-    if (status == IMP_STATUS_OK) status = surface_eval(s, 1, p, found, error);
-    memcpy(there, x, sizeof there);
-    if (status == IMP_STATUS_OK) status = surface_move_outward(s, maps, t, 1, there);
+    if (status == IMP_STATUS_OK) status = compare(s, p, there, held.slip, &apart, &off);
+    if (status == IMP_STATUS_OK && !(apart <= off)) {
+        status = find_anywhere(&q, off, &p[q.on.along]);
+        if (status == IMP_STATUS_OK) status = compare(s, p, there, held.slip, &apart, &off);
+    }
     if (status != IMP_STATUS_OK) return status;
     *u = p[0], *v = p[1];
-    const double off = held.slip + 2 * (error[0] + error[1] + error[2]);
-    return distance_between(found, there) <= off ? IMP_STATUS_OK : SURFACE_NOT_CLOSED;
+    return apart <= off ? IMP_STATUS_OK : SURFACE_NOT_CLOSED;
 }

@@ -463,8 +463,17 @@ START_TEST(what_turns_beside_its_line_is_not_held)
 }
 END_TEST
 
-/* The reported points are within the reported gap far from the origin, at the origin, and where the
- * first maps shift the line by less than the slip that a search permits. */
+/* A tube that an angle of u goes around, perhaps faster at one end, more than once, or back. */
+#define TURNED_BY(ANGLE)                                                                           \
+    {                                                                                              \
+        "formula x=0.5*cos(" ANGLE ") y=0.5*sin(" ANGLE ") z=v domain=[[0,1],[-1,1]] ! "           \
+        "rotate axis=0,0,1 rate=5 ! translate offset=[[2,-0.2,0],[-2,0,0]]",                       \
+            "sphere radius=0.3", 1e-6                                                              \
+    }
+
+/* The reported points are within the reported gap far from the origin, at the origin, where the
+ * first maps shift the line by less than the slip that a search permits, and where parameters run
+ * around unevenly. */
 START_TEST(points_of_surfaces_held_are_found_wherever_they_are)
 {
     static const struct {
@@ -488,7 +497,11 @@ START_TEST(points_of_surfaces_held_are_found_wherever_they_are)
          "! translate velocity=-1.5,-1,-0.5",
          "sphere radius=0.3 center=0,0.6,0.9", 1e-8},
         {"spokes ! rotate axis=0,0,1 rate=5 ! translate offset=[[3,-0.1,0.1],[-3,0,0]]",
-         "sphere radius=0.3", 1e-6}};
+         "sphere radius=0.3", 1e-6},
+        TURNED_BY("10*u"),
+        TURNED_BY("300*u^3"),
+        TURNED_BY("7*tanh(25*u)"),
+        TURNED_BY("6*u+3*sin(3*u)")};
     for (size_t k = 0; k < sizeof row / sizeof *row; ++k) {
         const imp_result r = touch(row[k].a, row[k].b, row[k].gamma);
         ck_assert_int_eq(r.verdict, IMP_VERDICT_CONTACT);
