@@ -304,7 +304,7 @@ plugins_libexpression_la_SOURCES = \
 noinst_HEADERS += plugins/expression/type.h
 plugins_libexpression_la_LDFLAGS =
 plugins_formula_la_LIBADD = plugins/libexpression.la plugins/libcommon.la
-plugins_map_formula_la_LIBADD = plugins/libexpression.la
+plugins_map_formula_la_LIBADD = plugins/libexpression.la plugins/libcommon.la
 plugins_motion_formula_la_LIBADD = plugins/libexpression.la plugins/libcommon.la
 
 # They link with libm, and those that read JSON with jansson (plugins/libmesh.la), whatever configure

@@ -94,7 +94,8 @@ IMP_QUAD_INLINE bool solve(const double h[NEWTON_UNKNOWNS][NEWTON_UNKNOWNS], con
 }
 
 /* Removes the unknowns of the mask from the system, so that their steps are 0. */
-static inline void hold(imp_quad_mask which, double h[NEWTON_UNKNOWNS][NEWTON_UNKNOWNS], double *g)
+IMP_QUAD_INLINE void hold(imp_quad_mask which, double h[NEWTON_UNKNOWNS][NEWTON_UNKNOWNS],
+                          double *g)
 {
     for (int k = 0; k < NEWTON_UNKNOWNS; ++k) {
         if (which[k] == 0) continue;
