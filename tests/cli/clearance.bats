@@ -275,16 +275,16 @@ END
     limits=(--max-pairs 200 --tolerance 1e-6)
     run -3 "$IMPINGE" clearance "${eggs[@]}" "${limits[@]}" --json
     valid clearance
-    json ".advice | test(\"'sphere'\")"
+    json ".advice | test(\"'ellipsoid'\")"
     run -3 "$IMPINGE" clearance "${eggs[@]}" "${limits[@]}"
-    [[ ${lines[-1]} == "  advice   "*"'sphere'"* ]]
+    [[ ${lines[-1]} == "  advice   "*"'ellipsoid'"* ]]
     run -3 "$IMPINGE" clearance "${eggs[@]}" --max-pairs 200 --require 0.009999 --json
     json '.verdict == "undecided" and (.advice | length > 20)'
     run -3 "$IMPINGE" clearance "${eggs[@]}" "${limits[@]}" --each --json
     valid clearance
     json '(has("advice") | not) and (.pairs[0].advice | length > 20)'
     run -3 "$IMPINGE" clearance "${eggs[@]}" "${limits[@]}" --each
-    [[ ${lines[-1]} == "  advice   a, b: "*"'sphere'"* ]]
+    [[ ${lines[-1]} == "  advice   a, b: "*"'ellipsoid'"* ]]
     run -0 "$IMPINGE" clearance "${passing[@]}" --json
     json 'has("advice") | not'
 }
