@@ -20,7 +20,6 @@ typedef struct distance_view {
     bool is_promising; /* not apart, but its halves, with smaller remainders, may be */
     bool has_start;    /* the window's start was cut by distance_cut_start */
     double lower;      /* bound of the distance over the window as passed; length */
-    double remainder;  /* of the distance, if is_promising; length */
     double bend[3];    /* nonlinear extents in u, v, t in the other's frame, about; length */
 } distance_view;
 

@@ -79,7 +79,6 @@ imp_code distance_judge_halving(const distance_question *q, const halving_signs 
 {
     const imp_region *r = &q->a->region, now = region_make(r->c, r->c);
     double floor = 0, in_time = 0;
-    view->remainder = of->g->e;
     view->is_promising = is_worth_halving(q, of, 0);
     if (!view->is_promising || is_of_points(of)) return IMP_SUCCESS;
     if (!q->is_ball && !strategy_is_small(q->a)) return IMP_SUCCESS;

@@ -250,19 +250,12 @@ static imp_code cut_side(const distance_sides *of, int side, const side_plan *pl
     return plan->is_asked ? distance_cut(&plan->q, window, view, error) : IMP_SUCCESS;
 }
 
-/* Whether the node of the first view is rather to be split. */
-static bool is_better(const distance_view *a, const distance_view *b)
-{
-    return a->lower > b->lower || (a->lower == b->lower && a->remainder < b->remainder);
-}
-
 /* Lemma. A node's points belong to its whole surface: the distance of one node's points from all of
  * the other surface, or from the plane of its node, is no greater than that of the two nodes. Each
  * side cuts what the other has left, first as a ball. Both are asked even where the first is worth
  * splitting alone, so that the choice does not depend on their order: a sphere's node may need 600
- * pairs against an ellipsoid whose nodes need 140 against the sphere. Of equal bounds the smaller
- * remainder decides; where these are equal, too, the first side keeps the choice: a search that
- * changes sides then takes more pairs than one that stays. */
+ * pairs against an ellipsoid whose nodes need 140 against the sphere. Of equal bounds the first
+ * side keeps the choice: a search that changes sides then takes more pairs than one that stays. */
 imp_code distance_cut_sides(const distance_sides *of, double gamma_clear, distance_outcome *seen,
                             imp_error *error)
 {
@@ -272,7 +265,7 @@ imp_code distance_cut_sides(const distance_sides *of, double gamma_clear, distan
         if (code != IMP_SUCCESS) return code;
     }
     const int first = plan[1].is_still && !plan[0].is_still ? 1 : 0;
-    distance_view best = {.lower = 0}; /* of the side to split */
+    double best = 0; /* the lower bound of the side to split */
     for (int k = 0; k < 4 && !seen->is_apart && !(k == 2 && seen->side >= 0); ++k) {
         const int side = k % 2 == 0 ? first : !first;
         distance_view view;
@@ -284,8 +277,8 @@ imp_code distance_cut_sides(const distance_sides *of, double gamma_clear, distan
         seen->has_start = seen->has_start || view.has_start;
         if (view.lower > seen->lower) seen->lower = view.lower;
         if (!view.is_promising) continue;
-        if (seen->side >= 0 && !is_better(&view, &best)) continue;
-        best = view;
+        if (seen->side >= 0 && !(view.lower > best)) continue;
+        best = view.lower;
         seen->side = side;
         memcpy(seen->bend, view.bend, sizeof seen->bend);
     }

@@ -64,22 +64,6 @@ START_TEST(closed_forms_lie_within_the_bracket)
 }
 END_TEST
 
-/* Split alone at equal bounds, a sphere's node takes 607 pairs, a cylinder's 319. */
-START_TEST(which_surface_comes_first_costs_no_pairs)
-{
-    static const char inside[] = "ellipsoid radii=1,0.8,0.6 ! rotate rate=2";
-    static const char *const outside[] = {"sphere radius=1.1", "cylinder radius=1.1 height=4"};
-    imp_registry *registry = query_registry();
-    for (int k = 0; k < 2; ++k) {
-        const imp_clearance before = measure_pair(registry, inside, outside[k], 1e-3, 0),
-                            after = measure_pair(registry, outside[k], inside, 1e-3, 0);
-        ck_assert_uint_le(before.stats.pairs, 200);
-        ck_assert_uint_le(after.stats.pairs, 200);
-    }
-    imp_registry_free(registry);
-}
-END_TEST
-
 START_TEST(what_meets_is_no_farther_apart_than_gamma)
 {
     imp_registry *registry = query_registry();
@@ -310,8 +294,7 @@ START_TEST(where_nobody_meets_anybody_the_distance_is_infinite)
 END_TEST
 
 SUITE_MAIN("clearance", closed_forms_lie_within_the_bracket,
-           which_surface_comes_first_costs_no_pairs, what_meets_is_no_farther_apart_than_gamma,
-           no_sample_is_nearer_than_the_lower_bound, contact_at_other_distances_agrees,
-           nets_that_others_made_change_no_minimum_distance, slices_have_brackets_of_their_own,
-           each_two_bodies_have_a_bracket_of_their_own,
+           what_meets_is_no_farther_apart_than_gamma, no_sample_is_nearer_than_the_lower_bound,
+           contact_at_other_distances_agrees, nets_that_others_made_change_no_minimum_distance,
+           slices_have_brackets_of_their_own, each_two_bodies_have_a_bracket_of_their_own,
            where_nobody_meets_anybody_the_distance_is_infinite)
