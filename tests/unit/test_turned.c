@@ -274,6 +274,8 @@ START_TEST(profiles_and_turns_are_known)
     static const known row[] = {
         {{{"cos(u)", "sin(u)", "v"}, UPTO(TURN, 1)}, ROUND_CYLINDER, true, true},
         {{{"cos(2*pi*u)", "-sin(2*pi*u)", "v"}, UPTO(1.5, 1)}, ROUND_CYLINDER, true, false},
+        {{{"cos(u)", "sin(u)", "v"}, UPTO(0.99 * TURN, 1)}, ROUND_CYLINDER, false, false},
+        {{{"cos(u)", "sin(u)", "v"}, UPTO((1 - 0x1p-36) * TURN, 1)}, ROUND_CYLINDER, false, false},
         {{{"v*cos(u)", "v*sin(u)", "0"}, UPTO(TURN, 1)}, ROUND_PLANE, true, true},
         {{{"v*cos(u)", "2*v", "-v*sin(u)"}, UPTO(TURN, 1)}, ROUND_CONE, true, true},
         {{{"cos(u)*cos(v)", "cos(u)*sin(v)", "sin(u)"}, UPTO(1, TURN)}, ROUND_CIRCLE, true, true},
