@@ -86,8 +86,9 @@ static double off_by_parts(const profile *p, const round_profile *of, int parts)
         const double to = k == parts - 1 ? p->hi : p->lo + width * (k + 1) / parts;
         section_over(p, from, to, x);
         const double off = part_off(of, x);
-        if (!(off <= most)) most = off;
-        if (!(x[0].lo >= -cross)) cross = -x[0].lo;
+        /* A NaN stays. */
+        if (!(off <= most) && most >= 0) most = off;
+        if (!(x[0].lo >= -cross) && cross >= 0) cross = -x[0].lo;
     }
     return may_cross ? most : imp_sum_up(most + 2 * cross);
 }
