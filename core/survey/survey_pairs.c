@@ -112,8 +112,8 @@ static imp_code make_room_for_extents(imp_survey *s, imp_error *error)
     return s->extents.of != NULL ? IMP_SUCCESS : error_set_memory(error);
 }
 
-/* What slips of held maps are at most: small beside what tells contacts from what is clear, and, of
- * distances, beside what brackets and requirements are told apart by. */
+/* Held maps may slip by these parts of gamma - gamma_clear and, for a distance, of the tolerance
+ * of a bracket, so that slips decide no answer. */
 #define SLIP_OF_CONTACT 0x1p-7
 #define SLIP_OF_DISTANCE 0x1p-10
 
