@@ -18,6 +18,12 @@
  * NULL: no memory. */
 shared_instance *clocked_new(shared_instance *inner, size_t clock, double value);
 
+/* Returns the instance that follows time: p itself, or what p is at a value of its clock. */
+static inline shared_instance *clocked_own(shared_instance *p)
+{
+    return p->inner != NULL ? p->inner : p;
+}
+
 /* What the type itself made, of a surface that follows a clock, or of a piece of it. */
 const void *clocked_self(const void *self);
 

@@ -11,27 +11,16 @@
 #include "core/surface/clocked.h"
 #include "core/surface/slip.h"
 
-/* What a map follows: all of it, and where it stands while later maps are looked at. */
-typedef struct followed {
-    double lo, hi, stands;
-} followed;
-
-static followed followed_by(const shared_instance *p, const value_box *box)
+/* Where a map stands while later ones are looked at: a time, or a value of its parameter. */
+static double stand_of(const shared_instance *p, const value_box *box)
 {
-    const size_t k = p->clock;
-    return p->inner != NULL ? (followed){box->lo[k], box->hi[k], box->at[k]}
-                            : (followed){box->t_start, box->t_end, box->t_start};
-}
-
-static const shared_instance *own_of(const shared_instance *p)
-{
-    return p->inner != NULL ? p->inner : p;
+    return p->inner != NULL ? box->at[p->clock] : box->t_start;
 }
 
 /* Adds a map as it is where it stands. False: no memory. */
-static bool add_standing(surface *to, shared_instance *p, const followed *of)
+static bool add_standing(surface *to, shared_instance *p, const value_box *box)
 {
-    shared_instance *at = clocked_new(p->inner != NULL ? p->inner : p, p->clock, of->stands);
+    shared_instance *at = clocked_new(clocked_own(p), p->clock, stand_of(p, box));
     if (at == NULL) return false;
     const bool is_added = surface_add_instance(to, at) == IMP_SUCCESS;
     instance_release(at);
@@ -44,14 +33,8 @@ static surface *under_one_more(const surface *s, size_t maps, const value_box *b
 {
     surface *made = surface_new_of(surface_stage(s, 0));
     bool ok = made != NULL;
-    for (size_t k = 0; k < maps && ok; ++k) {
-        const followed of = followed_by(s->maps[k].origin, box);
-        ok = add_standing(made, s->maps[k].origin, &of);
-    }
-    if (ok) {
-        shared_instance *last = s->maps[maps].origin;
-        ok = surface_add_instance(made, last->inner != NULL ? last->inner : last) == IMP_SUCCESS;
-    }
+    for (size_t k = 0; k < maps && ok; ++k) ok = add_standing(made, s->maps[k].origin, box);
+    if (ok) ok = surface_add_instance(made, clocked_own(s->maps[maps].origin)) == IMP_SUCCESS;
     if (ok && surface_divide(made) == IMP_SUCCESS) return made;
     surface_free(made);
     return NULL;
@@ -61,14 +44,15 @@ static surface *under_one_more(const surface *s, size_t maps, const value_box *b
 static imp_status slip_of_map(const surface *s, size_t k, const imp_model bare[3],
                               const value_box *box, double *slip)
 {
-    const shared_instance *p = s->maps[k].origin, *own = own_of(p);
-    const followed of = followed_by(p, box);
+    const shared_instance *p = s->maps[k].origin, *own = clocked_own(s->maps[k].origin);
+    const stage_range of = stage_range_of(p, box);
+    const double stand = stand_of(p, box);
     *slip = INFINITY;
     if (!(of.lo >= own->lo[2] && of.hi <= own->hi[2])) return IMP_STATUS_OK;
     surface *made = under_one_more(s, k, box);
     if (made == NULL) return IMP_STATUS_OK;
     const imp_region times = region_make((double[3]){0, 0, of.lo}, (double[3]){0, 0, of.hi});
-    const imp_region then = slip_at_times(&times, of.stands, of.stands);
+    const imp_region then = slip_at_times(&times, stand, stand);
     imp_status status = IMP_STATUS_OK;
     size_t maps = 0;
     double found = INFINITY;

@@ -8,6 +8,7 @@
 #include <math.h>
 
 #include "core/base/rounding.h"
+#include "core/surface/clocked.h"
 #include "core/surface/region.h"
 #include "core/surface/surface_internal.h"
 
@@ -23,11 +24,11 @@ typedef struct stage_times {
     double lo, hi, middle, half; /* half >= the distance of the ends from the middle */
 } stage_times;
 
-static stage_times times_of(const shared_instance *p, const value_box *box)
+static stage_times times_of(shared_instance *p, const value_box *box)
 {
-    stage_times t = {.lo = box->t_start, .hi = box->t_end};
-    if (p->inner != NULL) t.lo = box->lo[p->clock], t.hi = box->hi[p->clock];
-    const shared_instance *own = p->inner != NULL ? p->inner : p;
+    const stage_range range = stage_range_of(p, box);
+    stage_times t = {.lo = range.lo, .hi = range.hi};
+    const shared_instance *own = clocked_own(p);
     if (!(t.lo >= own->lo[2])) t.lo = own->lo[2];
     if (!(t.hi <= own->hi[2])) t.hi = own->hi[2];
     if (!(t.lo <= t.hi)) { /* it does not exist at these times: the nearest at which it does */
@@ -88,7 +89,7 @@ imp_status surface_extent_find(const surface *s, const value_box *box, surface_e
     for (int i = 0; i < 3; ++i) extent->lo[i] = INFINITY, extent->hi[i] = -INFINITY;
     extent->speed = 0;
     extent->held = (held_maps){0, 0};
-    surface *own = surface_new_of(p->inner != NULL ? p->inner : p);
+    surface *own = surface_new_of(clocked_own(p));
     if (own == NULL || surface_divide(own) != IMP_SUCCESS) {
         surface_free(own);
         add_unbounded(extent);
@@ -160,7 +161,7 @@ static imp_status step_begin(const mapping *map, const value_box *box, const rea
     imp_box4 over;
     to->map = *map;
     if (p->inner != NULL) to->map = (mapping){p->inner->map, p->inner->self, p->inner};
-    to->times = times_of(p, box);
+    to->times = times_of(map->origin, box);
     for (int i = 0; i < 3; ++i) {
         over.lo[i] = r->lo[i], over.hi[i] = r->hi[i];
         if (!(r->lo[i] > -INFINITY && r->hi[i] < INFINITY)) return IMP_STATUS_UNBOUNDED;

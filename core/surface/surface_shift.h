@@ -19,6 +19,16 @@ typedef struct value_box {
     double t_start, t_end;
 } value_box;
 
+/* What a stage follows, time or a parameter, in a box. */
+typedef struct stage_range {
+    double lo, hi;
+} stage_range;
+static inline stage_range stage_range_of(const shared_instance *p, const value_box *box)
+{
+    return p->inner != NULL ? (stage_range){box->lo[p->clock], box->hi[p->clock]}
+                            : (stage_range){box->t_start, box->t_end};
+}
+
 /* The surface before its maps, at all times and values of a box. */
 typedef struct surface_extent {
     double lo[3], hi[3]; /* infinite: it is not bounded */

@@ -7,6 +7,7 @@
 #include <string.h>
 
 #include "core/base/rounding.h"
+#include "core/surface/clocked.h"
 #include "core/surface/region.h"
 #include "core/surface/surface_internal.h"
 
@@ -106,11 +107,6 @@ static bool pose_at(const spread_map *m, double t, double turn[3][3], double shi
     return known;
 }
 
-/* What a map follows, from .. to. */
-typedef struct stage_range {
-    double lo, hi;
-} stage_range;
-
 /* The sums of the lemma up to a map. */
 typedef struct spread_sums {
     double first, second, drift;
@@ -160,10 +156,9 @@ static bool take_map(const surface *s, size_t j, const value_box *box, size_t sw
                      const map_reach *reach, spread_map *m, spread_sums *sums)
 {
     const mapping *map = &s->maps[j];
-    const shared_instance *p = map->origin, *own = p->inner != NULL ? p->inner : p;
+    const shared_instance *p = map->origin, *own = clocked_own(map->origin);
     const bool is_free = p->inner != NULL && p->clock != swept;
-    const stage_range range = p->inner != NULL ? (stage_range){box->lo[p->clock], box->hi[p->clock]}
-                                               : (stage_range){box->t_start, box->t_end};
+    const stage_range range = stage_range_of(p, box);
     *m = (spread_map){.type = own->map,
                       .self = own->self,
                       .clock = is_free ? p->clock : SIZE_MAX,
