@@ -97,23 +97,24 @@ static strips_of_box strips_of(const division d[2], const swept_box *box)
 
 static size_t columns_of(const strips_of_box *of) { return (size_t)of->length[0] * of->length[1]; }
 
-/* Returns the number of the column in which column k of a box is, from 0. */
-static size_t column_at(const strips *s, const strips_of_box *of, size_t k)
+/* Finds column k of a box, from 0: its strip along either axis. Returns its number of all. */
+static size_t column_at(const strips *s, const strips_of_box *of, size_t k, size_t strip[2])
 {
-    const size_t y = of->first[0] + k / of->length[1], z = of->first[1] + k % of->length[1];
-    return y * s->count[1] + z;
+    strip[0] = of->first[0] + k / of->length[1];
+    strip[1] = of->first[1] + k % of->length[1];
+    return strip[0] * s->count[1] + strip[1];
 }
 
 /* Counts the boxes of each column, in start[column + 2], and returns how many these are in all. */
 static size_t count_boxes(strips *s, const division d[2], const swept_box *boxes, size_t count)
 {
-    size_t entries = 0;
+    size_t entries = 0, strip[2];
     for (size_t k = 0; k < count; ++k) {
         const strips_of_box *of = &s->of[k];
         s->of[k] = strips_of(d, &boxes[k]);
         const size_t columns = columns_of(of);
         if (columns == 0) s->wide[s->wide_count++] = (uint32_t)k;
-        for (size_t j = 0; j < columns; ++j) s->start[column_at(s, of, j) + 2] += 1;
+        for (size_t j = 0; j < columns; ++j) s->start[column_at(s, of, j, strip) + 2] += 1;
         entries += columns;
     }
     return entries;
@@ -123,10 +124,11 @@ static size_t count_boxes(strips *s, const division d[2], const swept_box *boxes
 static void enter_boxes(strips *s, size_t count)
 {
     const size_t columns = s->count[0] * s->count[1];
+    size_t strip[2];
     for (size_t j = 0; j < columns; ++j) s->start[j + 2] += s->start[j + 1];
     for (size_t k = 0; k < count; ++k)
         for (size_t j = 0; j < columns_of(&s->of[k]); ++j)
-            s->box[s->start[column_at(s, &s->of[k], j) + 1]++] = (uint32_t)k;
+            s->box[s->start[column_at(s, &s->of[k], j, strip) + 1]++] = (uint32_t)k;
 }
 
 /* Makes strips wider where there are more columns than boxes. */
@@ -202,14 +204,14 @@ static bool visit_column(const strips *s, const swept_box *boxes, int axis, size
                          double gamma_clear, const broad_phase_visitor *visitor)
 {
     const strips_of_box *own = &s->of[k];
-    const size_t y = own->first[0] + j / own->length[1], z = own->first[1] + j % own->length[1];
-    const size_t column = column_at(s, own, j);
+    size_t strip[2];
+    const size_t column = column_at(s, own, j, strip);
     const uint32_t *const end = s->box + s->start[column + 1];
     for (const uint32_t *at = above(s->box + s->start[column], end, k); at < end; ++at) {
         const strips_of_box *other = &s->of[*at];
         bool is_beyond = false;
-        if (y != own->first[0] && y != other->first[0]) continue;
-        if (z != own->first[1] && z != other->first[1]) continue;
+        if (strip[0] != own->first[0] && strip[0] != other->first[0]) continue;
+        if (strip[1] != own->first[1] && strip[1] != other->first[1]) continue;
         if (!broad_phase_visit_two(&boxes[k], &boxes[*at], axis, gamma_clear, &is_beyond, visitor))
             return false;
         if (is_beyond) break;

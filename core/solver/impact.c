@@ -4,7 +4,6 @@
 
 #include "core/solver/impact.h"
 
-#include <stdlib.h>
 #include <string.h>
 
 #include "core/solver/pair_note.h"
@@ -36,22 +35,11 @@ void impact_push_untested(impact *im, const pair *p)
 
 /* --- Further candidates ----------------------------------------------------------------------- */
 
-/* Lengthens an array of the store, if there is one; what is new is 0. False: no memory. */
+/* Lengthens an array, if there is one; what is new is 0. False: no memory. */
 static bool lengthen(arena_store *store, void **array, size_t old, size_t count, size_t size)
 {
     if (*array == NULL) return true;
     char *longer = arena_store_regrow(store, *array, old * size, count * size);
-    if (longer == NULL) return false;
-    memset(longer + old * size, 0, (count - old) * size);
-    *array = longer;
-    return true;
-}
-
-/* Like lengthen, in the heap. */
-static bool lengthen_in_heap(void **array, size_t old, size_t count, size_t size)
-{
-    if (*array == NULL) return true;
-    char *longer = realloc(*array, count * size);
     if (longer == NULL) return false;
     memset(longer + old * size, 0, (count - old) * size);
     *array = longer;
@@ -64,10 +52,11 @@ bool impact_take_candidates(impact *im, candidate_pair *pairs, size_t count)
     void *trials = im->trials, *roots = im->roots, *passed = im->passed, *explained = im->explained;
     im->candidate_pairs = pairs;
     if (count == old) return true;
-    const bool ok = lengthen(im->heap.store, &trials, old, count, sizeof *im->trials) &&
-                    lengthen(im->heap.store, &roots, old, count, sizeof *im->roots) &&
-                    lengthen_in_heap(&passed, old, count, sizeof *im->passed) &&
-                    lengthen_in_heap(&explained, old, count, sizeof *im->explained);
+    arena_store *store = im->heap.store;
+    const bool ok = lengthen(store, &trials, old, count, sizeof *im->trials) &&
+                    lengthen(store, &roots, old, count, sizeof *im->roots) &&
+                    lengthen(store, &passed, old, count, sizeof *im->passed) &&
+                    lengthen(store, &explained, old, count, sizeof *im->explained);
     if (ok && trials != NULL) im->stats->bytes += (count - old) * sizeof *im->trials;
     im->trials = trials, im->roots = roots, im->passed = passed, im->explained = explained;
     for (size_t k = old; ok && roots != NULL && k < count; ++k)

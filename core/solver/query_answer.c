@@ -73,6 +73,17 @@ imp_code imp_query_get_result(const imp_query *query, imp_result *result, imp_er
     return code;
 }
 
+/* Describes a side in u and v from lo to hi. */
+static struct imp_pending_side side_within(const candidate *c, size_t piece, const double *lo,
+                                           const double *hi)
+{
+    return (struct imp_pending_side){c->body,
+                                     c->surface,
+                                     piece,
+                                     {lo[PARAMETER_U], hi[PARAMETER_U]},
+                                     {lo[PARAMETER_V], hi[PARAMETER_V]}};
+}
+
 /* Describes one side of a pair on the heap or, with no node, of a candidate pair that was not
  * tested yet. */
 static struct imp_pending_side pending_side(const imp_query *query, size_t k, int side,
@@ -80,12 +91,8 @@ static struct imp_pending_side pending_side(const imp_query *query, size_t k, in
 {
     const candidate *c = query->candidates.pairs[k].side[side];
     const node *of = n != NULL ? n : tree_root(c->tree);
-    const imp_region *r = &of->region;
-    return (struct imp_pending_side){c->body,
-                                     c->surface,
-                                     of->many != NULL ? SIZE_MAX : surface_piece_index(of->surface),
-                                     {r->lo[PARAMETER_U], r->hi[PARAMETER_U]},
-                                     {r->lo[PARAMETER_V], r->hi[PARAMETER_V]}};
+    const size_t piece = of->many != NULL ? SIZE_MAX : surface_piece_index(of->surface);
+    return side_within(c, piece, of->region.lo, of->region.hi);
 }
 
 /* Describes one side of a candidate pair that was not even made ready. */
@@ -94,14 +101,9 @@ static struct imp_pending_side later_side(const imp_query *query, size_t k, int 
     const candidate_list *list = &query->candidates;
     const candidate *c = &list->candidates[list->later->pair[k][side]];
     const surface *s = tree_surface(c->tree);
-    const size_t pieces = surface_piece_count(s);
     double lo[3], hi[3];
     surface_domain(s, lo, hi);
-    return (struct imp_pending_side){c->body,
-                                     c->surface,
-                                     pieces > 1 ? SIZE_MAX : 0,
-                                     {lo[PARAMETER_U], hi[PARAMETER_U]},
-                                     {lo[PARAMETER_V], hi[PARAMETER_V]}};
+    return side_within(c, surface_piece_count(s) > 1 ? SIZE_MAX : 0, lo, hi);
 }
 
 static bool later_pending(const imp_query *query, size_t k, imp_pending *pending)

@@ -54,7 +54,7 @@ imp_code imp_query_exclude_pair(imp_query *query, imp_error *error)
                          "pass: this query has found no contact, and nothing that is unresolved");
     if (query->proof != NULL)
         return error_set(error, IMP_ERROR_USAGE, "pass: this query keeps a proof");
-    if (!impact_pass(&query->impact, query->candidates.pair_count)) return error_set_memory(error);
+    if (!impact_pass(&query->impact)) return error_set_memory(error);
     query_forget_insides(query);
     query_finish(query, IMP_VERDICT_UNDECIDED, IMP_REASON_RUNNING);
     return IMP_SUCCESS;

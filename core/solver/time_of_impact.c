@@ -5,7 +5,6 @@
 #include "core/solver/time_of_impact.h"
 
 #include <assert.h>
-#include <stdlib.h>
 
 #include "core/bounds/strategy.h"
 #include "core/solver/contradiction.h"
@@ -30,7 +29,7 @@ static bool reserve_explained(impact *im)
 {
     const size_t count = im->candidate_pair_count;
     if (!im->explains || im->explained != NULL || count == 0) return true;
-    im->explained = calloc(count, sizeof *im->explained);
+    im->explained = arena_store_zeroed(im->heap.store, count * sizeof *im->explained);
     if (im->explained != NULL) im->stats->bytes += count * sizeof *im->explained;
     return im->explained != NULL;
 }
@@ -152,9 +151,11 @@ static bool complete_test(impact *im, pair *p)
     return false;
 }
 
-bool impact_pass(impact *im, size_t count)
+bool impact_pass(impact *im)
 {
-    if (im->passed == NULL) im->passed = calloc(count, sizeof *im->passed);
+    const size_t count = im->candidate_pair_count;
+    if (im->passed == NULL)
+        im->passed = arena_store_zeroed(im->heap.store, count * sizeof *im->passed);
     if (im->passed == NULL) return false;
     const candidate_pair *found = &im->candidate_pairs[im->found_candidate];
     for (size_t k = 0; k < count; ++k) {
@@ -286,12 +287,11 @@ static bool reserve_trials(impact *im)
 enum { ROOM_OF_STEP = 3 };
 
 /* Lemma. The popped pair's window starts first of all, and outside the windows on the heap no two
- * points are within gamma_clear, but those of later candidate pairs, which are apart until then: so
- * no two are before that start. Children's windows lie in their
- * parent's, so the bound never falls. A pair that ends the search is pushed again, so that a
- * smaller gamma can continue from it. A known contact no later than the first window is the answer;
- * it is no earlier than t_lower, since its search began at a window's start, and windows are popped
- * in order. */
+ * points are within gamma_clear, but those of later candidate pairs, which are apart until then:
+ * so no two are before that start. Children's windows lie in their parent's, so the bound never
+ * falls. A pair that ends the search is pushed again, so that a smaller gamma can continue from
+ * it. A known contact no later than the first window is the answer; it is no earlier than t_lower,
+ * since its search began at a window's start, and windows are popped in order. */
 imp_code impact_advance(impact *im, impact_state *state, imp_error *error)
 {
     const double proved = im->t_lower;
@@ -325,9 +325,9 @@ void impact_clear(impact *im)
 {
     pair_heap_clear(&im->heap);
     arena_store_free_room(im->heap.store, im->roots);
-    free(im->passed);
+    arena_store_free_room(im->heap.store, im->passed);
     arena_store_free_room(im->heap.store, im->trials);
-    free(im->explained);
+    arena_store_free_room(im->heap.store, im->explained);
     arena_store_free_room(im->heap.store, im->ahead.tests);
     im->roots = NULL;
     im->passed = NULL;

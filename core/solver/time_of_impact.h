@@ -31,7 +31,7 @@ bool impact_refine(impact *im, double gamma, double gamma_clear, size_t count);
 
 /* After IMPACT_CONTACT or IMPACT_RESOLUTION: continues without the two bodies of that pair. False:
  * no memory; nothing has changed. */
-bool impact_pass(impact *im, size_t count);
+bool impact_pass(impact *im);
 
 void impact_clear(impact *im);
 
