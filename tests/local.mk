@@ -634,6 +634,7 @@ noinst_HEADERS += \
     tests/support/compose.h \
     tests/support/edge_nodes.h \
     tests/support/failing_query.h \
+    tests/support/formula_surface.h \
     tests/support/isolated_bowl.h \
     tests/support/kit_registry.h \
     tests/support/made_certificate.h \

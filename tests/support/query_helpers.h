@@ -94,11 +94,9 @@ static inline void query_check(const imp_scene *scene, const imp_options *option
     }
 }
 
-/* Asks for the least distance, with the usual options if `asked` is NULL. It is enclosed within
- * `part` of the one that is known, and to a thousandth, by that many pairs at most. */
-static inline void query_brackets(imp_scene *scene, const imp_options *options,
-                                  const imp_clearance_options *asked, double distance, double part,
-                                  uint64_t pairs)
+/* Asks for the least distance, with the usual options if `asked` is NULL. */
+static inline imp_clearance query_clearance(imp_scene *scene, const imp_options *options,
+                                            const imp_clearance_options *asked)
 {
     imp_error error = {IMP_SUCCESS, ""};
     imp_clearance found = {.struct_size = sizeof found};
@@ -107,6 +105,16 @@ static inline void query_brackets(imp_scene *scene, const imp_options *options,
     ck_assert_int_eq(imp_query_step(query, 0, &error), IMP_SUCCESS);
     ck_assert_int_eq(imp_clearance_get(query, 0, &found, &error), IMP_SUCCESS);
     imp_query_free(query);
+    return found;
+}
+
+/* Asks for the least distance, with the usual options if `asked` is NULL. It is enclosed within
+ * `part` of the one that is known, and to a thousandth, by that many pairs at most. */
+static inline void query_brackets(imp_scene *scene, const imp_options *options,
+                                  const imp_clearance_options *asked, double distance, double part,
+                                  uint64_t pairs)
+{
+    const imp_clearance found = query_clearance(scene, options, asked);
     ck_assert_msg(found.stats.pairs <= pairs, "%llu pairs", (unsigned long long)found.stats.pairs);
     ck_assert_double_le(found.lower, distance * (1 + part));
     ck_assert_double_ge(found.upper, distance * (1 - part));

@@ -4,8 +4,10 @@
 #define TESTS_SUPPORT_SUITE_H
 
 #include <check.h>
+#include <stdarg.h>
 #include <stdio.h>
 #include <stdlib.h>
+#include <string.h>
 
 #include "core/common/random.h"
 
@@ -35,6 +37,19 @@ static inline int suite_times_from(int usual, int least)
 }
 
 static inline int suite_times_at_least(int usual) { return suite_times_from(usual, usual); }
+
+static inline double random_part(uint64_t *state) { return random_between(state, -1, 1); }
+
+/* Adds to a text, for which there is room for `size` bytes. */
+__attribute__((format(printf, 3, 4))) static inline void text_add(char *text, size_t size,
+                                                                  const char *format, ...)
+{
+    const size_t used = strlen(text);
+    va_list of;
+    va_start(of, format);
+    vsnprintf(text + used, size - used, format, of);
+    va_end(of);
+}
 
 /* An end of [-1, 1] as often as a number inside. */
 static inline double suite_end_or_inside(uint64_t *state)

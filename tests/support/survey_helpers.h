@@ -38,6 +38,14 @@ static inline imp_scene *scene_of(const char *quoted)
     return scene;
 }
 
+static inline imp_scene *at_values(const imp_scene *scene, const double *values)
+{
+    imp_error error;
+    imp_scene *at = imp_scene_at(scene, values, &error);
+    ck_assert_msg(at != NULL, "%s", error.text);
+    return at;
+}
+
 typedef struct answer {
     imp_result contact;
     imp_clearance near;

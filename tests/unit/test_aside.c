@@ -29,8 +29,6 @@ static imp_scene *scene_of(const char *a, const char *b)
     return scene;
 }
 
-static double part(uint64_t *random) { return random_between(random, -1, 1); }
-
 /* --- Maps ------------------------------------------------------------------------------------- */
 
 typedef struct word {
@@ -85,19 +83,20 @@ static word draw_word(uint64_t *random, const line *l)
     const line other = draw_line(random);
     switch (random_bits(random) % 6) {
     case 0:
-        return turn_about(random, l, 3 * part(random));
+        return turn_about(random, l, 3 * random_part(random));
     case 1:
-        return shift_along(l, part(random));
+        return shift_along(l, random_part(random));
     case 2:
-        return turn_about(random, &other, 3 * part(random));
+        return turn_about(random, &other, 3 * random_part(random));
     case 3:
-        return shift_along(&other, part(random));
+        return shift_along(&other, random_part(random));
     case 4:
         return word_of(" ! screw axis=%d,%d,%d pitch=0.5 rate=%.17g", l->direction[0],
-                       l->direction[1], l->direction[2], part(random));
+                       l->direction[1], l->direction[2], random_part(random));
     default:
         return word_of(" ! rotate axis=%d,%d,%d angle=%.17g,%.17g,%.17g", l->direction[0],
-                       l->direction[1], l->direction[2], part(random), part(random), part(random));
+                       l->direction[1], l->direction[2], random_part(random), random_part(random),
+                       random_part(random));
     }
 }
 
@@ -129,7 +128,7 @@ START_TEST(maps_that_are_exchanged_move_points_no_farther_than_is_said)
         for (int k = 0; k < POINTS; ++k) {
             const double at = random_fraction(&random), far = random_power(&random, -3, 6);
             double p[3], q[3];
-            for (int i = 0; i < 3; ++i) p[i] = q[i] = far * part(&random);
+            for (int i = 0; i < 3; ++i) p[i] = q[i] = far * random_part(&random);
             ck_assert_int_eq(surface_move_outward(s, 0, at, 1, p), IMP_STATUS_OK);
             ck_assert_int_eq(surface_move_outward(t, 0, at, 1, q), IMP_STATUS_OK);
             ck_assert_msg(query_distance(p, q) <= most + 1e-13 * (30 + far), "%s: %g > %g", a,
@@ -159,7 +158,8 @@ static twins draw_twins(uint64_t *random)
     snprintf(y.b, sizeof y.b, "sphere radius=0.4 center=0,0,%.17g",
              random_between(random, 0.61, 1));
     const line l = draw_line(random);
-    const double rate = 3 * part(random), share = part(random), way = part(random);
+    const double rate = 3 * random_part(random), share = random_part(random),
+                 way = random_part(random);
     const double most = random_power(random, -40, -3);
     const word both = turn_about(random, &l, rate), alike = turn_about(random, &l, rate + most),
                one = turn_about(random, &l, share * rate),

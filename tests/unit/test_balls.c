@@ -23,8 +23,6 @@ static void close_registry(void) { imp_registry_free(registry); }
 
 /* --- Scenes ----------------------------------------------------------------------------------- */
 
-static double part(uint64_t *random) { return random_between(random, -1, 1); }
-
 static void add_maps(uint64_t *random, char *text)
 {
     const int count = (int)(random_bits(random) % 4);
@@ -33,19 +31,22 @@ static void add_maps(uint64_t *random, char *text)
         if (random_bits(random) % 2)
             snprintf(end, (size_t)(text + TEXT - end),
                      " ! rotate axis=%.17g,%.17g,%.17g center=%.17g,%.17g,%.17g angle=%.17g,%.17g",
-                     part(random), part(random), 1 + part(random), part(random), part(random),
-                     part(random), 3 * part(random), 4 * part(random));
+                     random_part(random), random_part(random), 1 + random_part(random),
+                     random_part(random), random_part(random), random_part(random),
+                     3 * random_part(random), 4 * random_part(random));
         else
             snprintf(end, (size_t)(text + TEXT - end),
-                     " ! translate offset=[[%.17g,%.17g,%.17g],[%.17g,%.17g,%.17g]]", part(random),
-                     part(random), part(random), part(random), part(random), part(random));
+                     " ! translate offset=[[%.17g,%.17g,%.17g],[%.17g,%.17g,%.17g]]",
+                     random_part(random), random_part(random), random_part(random),
+                     random_part(random), random_part(random), random_part(random));
     }
 }
 
 static void draw_ball(uint64_t *random, char text[TEXT])
 {
     snprintf(text, TEXT, "sphere radius=%.17g center=%.17g,%.17g,%.17g",
-             random_power(random, -6, 0), 2 * part(random), 2 * part(random), 2 * part(random));
+             random_power(random, -6, 0), 2 * random_part(random), 2 * random_part(random),
+             2 * random_part(random));
     add_maps(random, text);
 }
 
@@ -67,10 +68,10 @@ static void draw_other(uint64_t *random, char text[TEXT])
     if (kind == 0) add_maps(random, text);
     if (kind == 1)
         snprintf(text + strlen(text), TEXT - strlen(text), " ! rotate rate=%.17g",
-                 5 * part(random));
+                 5 * random_part(random));
     if (kind == 2)
         snprintf(text + strlen(text), TEXT - strlen(text), " ! translate velocity=%.17g,%.17g,1",
-                 part(random), part(random));
+                 random_part(random), random_part(random));
 }
 
 static imp_scene *scene_of(const char *a, const char *b)
@@ -111,7 +112,7 @@ static int count_beyond(const surface *s, const imp_region *r, double share, uin
     ck_assert_int_eq(surface_ball(s, r, center, &radius), IMP_STATUS_OK);
     ck_assert(radius < INFINITY);
     for (int k = 0; k < POINTS; ++k) {
-        const double w = part(random), t = r->c[2] + w * r->d[2];
+        const double w = random_part(random), t = r->c[2] + w * r->d[2];
         double x[3], c[3], off = 1e-13;
         place_at(s, random_fraction(random), random_fraction(random), t, x);
         for (int i = 0; i < 3; ++i) {
@@ -257,7 +258,8 @@ static void try_scene(double share, uint64_t *random, tally *sum)
             ck_assert_int_eq(surface_still_maps(s[k], &times, &of.still_maps[k]), IMP_STATUS_OK);
     }
     const double near = nearly_apart(s[0], s[1], t0 + (t1 - t0) * random_fraction(random));
-    try_cut(&of, near * (1 + random_power(random, -40, -1) * part(random)), share, random, sum);
+    try_cut(&of, near * (1 + random_power(random, -40, -1) * random_part(random)), share, random,
+            sum);
     for (int k = 0; k < 2; ++k) tree_free(trees[k]);
     imp_scene_free(scene);
 }

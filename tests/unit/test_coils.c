@@ -6,104 +6,37 @@
 #include <string.h>
 
 #include "plugins/expression/coil_surface.h"
-#include "plugins/expression/text_form.h"
-#include "tests/support/suite.h"
+#include "tests/support/formula_surface.h"
 
 /* Formulas that are found to be coils: distances from them, also of points that screw motions have
  * moved, against dense samples of the surface; and formulas that are none. */
 
 #define TWO_PI 6.283185307179586476925286766559005768L
 
-enum { TEXTS = 120, POINTS = 16, GRID = 32 };
-
-typedef struct coil_text {
-    char text[3][256];
-    double lo[2], hi[2];
-} coil_text;
-
-/* --- A formula and its coil ------------------------------------------------------------------- */
+enum { TEXTS = 120, POINTS = 16 };
 
 typedef struct kit {
-    expression_program *program, *radius;
+    formula_surface of;
     coil_surface coil;
     bool is_coil;
-    double lo[2], hi[2];
 } kit;
 
-static kit kit_of(const coil_text *of)
+static kit kit_of(const formula_text *of)
 {
-    static const char *const names[] = {"u", "v", "t"};
-    const char *const text[3] = {of->text[0], of->text[1], of->text[2]};
-    imp_model whole[3];
-    for (int j = 0; j < 3; ++j) {
-        whole[j] = imp_unbounded(1u << j);
-        if (j < 2) whole[j].lo = of->lo[j], whole[j].hi = of->hi[j];
-    }
-    const expression_scope scope = {.variable = names, .whole = whole, .variable_count = 3};
-    kit k;
-    expression_error error;
-    text_form form;
-    const imp_status status =
-        expression_compile_form(&scope, text, &k.program, &form, &k.radius, &error);
-    ck_assert_msg(status == IMP_STATUS_OK, "%s | %s | %s: %s", text[0], text[1], text[2],
-                  error.message);
-    memcpy(k.lo, of->lo, sizeof k.lo);
-    memcpy(k.hi, of->hi, sizeof k.hi);
-    k.coil.form = form.coil;
-    k.coil.radius = k.radius;
-    k.is_coil = form.kind == TEXT_COIL && coil_surface_begin(&k.coil, k.lo, k.hi);
+    kit k = {.of = formula_surface_of(of)};
+    k.coil.form = k.of.form.coil;
+    k.coil.radius = k.of.section;
+    k.is_coil = k.of.form.kind == TEXT_COIL && coil_surface_begin(&k.coil, k.of.lo, k.of.hi);
     return k;
-}
-
-static void kit_free(kit *k)
-{
-    expression_free(k->program);
-    expression_free(k->radius);
-}
-
-/* --- The nearest point ------------------------------------------------------------------------ */
-
-static double apart(const kit *k, const double p[3], const double x[3])
-{
-    double y[3], sum = 0;
-    ck_assert_int_eq(expression_point(k->program, p, y, NULL), IMP_STATUS_OK);
-    for (int i = 0; i < 3; ++i) sum += (x[i] - y[i]) * (x[i] - y[i]);
-    return sqrt(sum);
-}
-
-/* A grid, then steps along u and v, halved where none comes nearer. */
-static double nearest(const kit *k, const double x[3])
-{
-    double best[3] = {0, 0, 0}, least = INFINITY;
-    for (int i = 0; i <= GRID; ++i)
-        for (int j = 0; j <= GRID; ++j) {
-            const double p[3] = {k->lo[0] + (k->hi[0] - k->lo[0]) * i / GRID,
-                                 k->lo[1] + (k->hi[1] - k->lo[1]) * j / GRID, 0};
-            const double now = apart(k, p, x);
-            if (now < least) least = now, memcpy(best, p, sizeof best);
-        }
-    for (double step = 1.0 / GRID; step > 0x1p-30;) {
-        const double before = least;
-        for (int way = 0; way < 4; ++way) {
-            double p[3] = {best[0], best[1], 0};
-            const int j = way / 2;
-            p[j] += (way % 2 ? -step : step) * (k->hi[j] - k->lo[j]);
-            p[j] = p[j] < k->lo[j] ? k->lo[j] : p[j] > k->hi[j] ? k->hi[j] : p[j];
-            const double now = apart(k, p, x);
-            if (now < least) least = now, memcpy(best, p, sizeof best);
-        }
-        if (!(least < before)) step *= 0.5;
-    }
-    return least;
 }
 
 /* --- Random coils ----------------------------------------------------------------------------- */
 
 /* zeta = p phi + kappa w, all coefficients dyadic, but for 2 pi. */
-static coil_text draw_text(uint64_t *random)
+static formula_text draw_text(uint64_t *random)
 {
     static const double sizes[] = {0.25, 0.5, 1, -0.5, -1, 2};
-    coil_text of = {.lo = {-0.25, -1}, .hi = {1, 1.5}};
+    formula_text of = {.lo = {-0.25, -1}, .hi = {1, 1.5}};
     const double p = sizes[random_bits(random) % 6] * 0.5, ratio = sizes[random_bits(random) % 6];
     const double kappa = p * ratio, a[2] = {1, (double)(random_bits(random) % 3) - 1};
     const double w[2] = {(double)(random_bits(random) % 3) - 1, 1};
@@ -155,18 +88,18 @@ static void judge(const kit *k, uint64_t *random, double factor, tally *of)
     ck_assert_int_eq(coil_surface_symmetry(&k->coil, &symmetry), IMP_STATUS_OK);
     const int points = suite_times_from(POINTS, POINTS / 2);
     for (int n = 0; n < points; ++n) {
-        const double p[3] = {random_between(random, k->lo[0], k->hi[0]),
-                             random_between(random, k->lo[1], k->hi[1]), 0};
+        const double p[3] = {random_between(random, k->of.lo[0], k->of.hi[0]),
+                             random_between(random, k->of.lo[1], k->of.hi[1]), 0};
         double x[3];
-        ck_assert_int_eq(expression_point(k->program, p, x, NULL), IMP_STATUS_OK);
+        ck_assert_int_eq(expression_point(k->of.program, p, x, NULL), IMP_STATUS_OK);
         const double off = random_power(random, -16, 0);
         for (int i = 0; i < 3; ++i) x[i] += off * random_between(random, -1, 1);
         const double claim = factor * claimed(k, x);
-        double most = nearest(k, x);
+        double most = formula_nearest(&k->of, x, 0x1p-30);
         if (claim / most > of->sharpest) of->sharpest = claim / most;
         of->refuted += claim > most * (1 + 1e-9) + 1e-12;
         screw(&symmetry, k->coil.form.along, random_between(random, -4, 4), x);
-        most = nearest(k, x);
+        most = formula_nearest(&k->of, x, 0x1p-30);
         of->refuted += claim > most * (1 + 1e-9) + 1e-12;
         of->judged += 2;
     }
@@ -179,11 +112,11 @@ static tally try_all(double factor)
     tally of = {.judged = 0};
     const int times = suite_times_at_least(TEXTS / 4);
     for (int n = 0; n < times && (factor == 1 || of.refuted == 0); ++n) {
-        const coil_text text = draw_text(&random);
+        const formula_text text = draw_text(&random);
         kit k = kit_of(&text);
         of.coils += k.is_coil;
         if (k.is_coil) judge(&k, &random, factor, &of);
-        kit_free(&k);
+        formula_surface_free(&k.of);
     }
     return of;
 }
@@ -211,8 +144,8 @@ END_TEST
 
 START_TEST(what_is_no_coil_is_not_taken_for_one)
 {
-    static const coil_text truly = COIL("4*(v+u)", "0.25*v");
-    static const coil_text none[] = {
+    static const formula_text truly = COIL("4*(v+u)", "0.25*v");
+    static const formula_text none[] = {
         COIL("4.1*(v+u)", "0.25*v"),        /* not periodic where v is moved by a turn */
         COIL("4*(v+u)", "0.25*v+0.01*v^2"), /* the lead changes */
         COIL("4*(v+u)+v^2", "0.25*v"),      /* no wave of a linear form */
@@ -227,11 +160,11 @@ START_TEST(what_is_no_coil_is_not_taken_for_one)
         {{"(2+v*cos(4*(v+u)))*cos(u)", "(2+v*cos(4*(v+u)))*sin(u)", "0.25*v"}, {0, -1}, {6, 1}}};
     kit k = kit_of(&truly);
     ck_assert(k.is_coil);
-    kit_free(&k);
+    formula_surface_free(&k.of);
     for (size_t n = 0; n < sizeof none / sizeof *none; ++n) {
         k = kit_of(&none[n]);
         ck_assert_msg(!k.is_coil, "text %zu: %s", n, none[n].text[0]);
-        kit_free(&k);
+        formula_surface_free(&k.of);
     }
 }
 END_TEST

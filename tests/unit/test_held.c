@@ -2,8 +2,6 @@
  * SPDX-License-Identifier: Apache-2.0 */
 #include <config.h>
 
-#include <stdarg.h>
-
 #define IMPINGE_PLUGIN_SYMBOL spokes_plugin
 #include <impinge/formula.h>
 #include <impinge/plugin.h>
@@ -122,29 +120,22 @@ static const char *const others[] = {"box size=1,0.8,0.6",
                                      "torus major_radius=0.6 minor_radius=0.2",
                                      "cylinder radius=0.3 height=1 ends=true"};
 
-static double part(uint64_t *random) { return random_between(random, -1, 1); }
-
-__attribute__((format(printf, 2, 3))) static void add(char *text, const char *format, ...)
-{
-    va_list of;
-    va_start(of, format);
-    vsnprintf(text + strlen(text), TEXT - strlen(text), format, of);
-    va_end(of);
-}
-
 static void add_spin(uint64_t *random, char *text)
 {
-    add(text, " ! rotate axis=0,0,%.17g rate=%.17g", random_bits(random) % 2 ? 1.0 : -2.0,
-        random_power(random, -1, 5) * part(random));
+    text_add(text, TEXT, " ! rotate axis=0,0,%.17g rate=%.17g",
+             random_bits(random) % 2 ? 1.0 : -2.0,
+             random_power(random, -1, 5) * random_part(random));
 }
 
 static void add_motion(uint64_t *random, double far, char *text)
 {
     if (random_bits(random) % 2)
-        add(text, " ! rotate axis=%.17g,%.17g,%.17g angle=%.17g,%.17g", part(random), part(random),
-            part(random), 3 * part(random), random_bits(random) % 2 ? part(random) : 0.0);
-    add(text, " ! translate offset=[[%.17g,%.17g,%.17g],[%.17g,%.17g,%.17g]]", far * part(random),
-        far * part(random), far, part(random), part(random), -far * random_fraction(random));
+        text_add(text, TEXT, " ! rotate axis=%.17g,%.17g,%.17g angle=%.17g,%.17g",
+                 random_part(random), random_part(random), random_part(random),
+                 3 * random_part(random), random_bits(random) % 2 ? random_part(random) : 0.0);
+    text_add(text, TEXT, " ! translate offset=[[%.17g,%.17g,%.17g],[%.17g,%.17g,%.17g]]",
+             far * random_part(random), far * random_part(random), far, random_part(random),
+             random_part(random), -far * random_fraction(random));
 }
 
 /* One scene twice: the first with what only turns within itself, at any place among its maps that

@@ -2,8 +2,6 @@
  * SPDX-License-Identifier: Apache-2.0 */
 #include <config.h>
 
-#include <stdarg.h>
-
 #include "core/surface/held_values.h"
 #include "tests/support/survey_helpers.h"
 
@@ -23,16 +21,6 @@ static const char *const rounds[] = {
 };
 enum { ROUNDS = sizeof rounds / sizeof *rounds };
 
-static double part(uint64_t *random) { return random_between(random, -1, 1); }
-
-__attribute__((format(printf, 2, 3))) static void add(char *text, const char *format, ...)
-{
-    va_list of;
-    va_start(of, format);
-    vsnprintf(text + strlen(text), TEXT - strlen(text), format, of);
-    va_end(of);
-}
-
 static const char *clock_of(uint64_t *random)
 {
     static const char *const clocks[] = {"p0", "p1", "time"};
@@ -42,10 +30,12 @@ static const char *clock_of(uint64_t *random)
 /* A turn about the line through `center` along z, beside it by `off`. */
 static void add_spin(uint64_t *random, const double center[3], double off, char *text)
 {
-    add(text, "{'type':'rotate','axis':[0,0,%g],'rate':%.17g,'center':[%.17g,%.17g,%.17g],",
-        random_bits(random) % 2 ? 1.0 : -2.0, 3 * part(random), center[0] + off * part(random),
-        center[1] + off * part(random), part(random));
-    add(text, "'clock':'%s'},", clock_of(random));
+    text_add(text, TEXT,
+             "{'type':'rotate','axis':[0,0,%g],'rate':%.17g,'center':[%.17g,%.17g,%.17g],",
+             random_bits(random) % 2 ? 1.0 : -2.0, 3 * random_part(random),
+             center[0] + off * random_part(random), center[1] + off * random_part(random),
+             random_part(random));
+    text_add(text, TEXT, "'clock':'%s'},", clock_of(random));
 }
 
 /* Spins that do not show, but for `off`, about the line that a map has put elsewhere, perhaps; then
@@ -57,13 +47,15 @@ static void add_maps(uint64_t *random, double off, const char *last, char *text)
     for (int k = 0; k < spins; ++k) {
         if (random_bits(random) % 3 == 0) {
             double by[3];
-            for (int i = 0; i < 3; ++i) center[i] += by[i] = 0.3 * part(random);
-            add(text, "{'type':'translate','offset':[[%.17g,%.17g,%.17g]]},", by[0], by[1], by[2]);
+            for (int i = 0; i < 3; ++i) center[i] += by[i] = 0.3 * random_part(random);
+            text_add(text, TEXT, "{'type':'translate','offset':[[%.17g,%.17g,%.17g]]},", by[0],
+                     by[1], by[2]);
         }
         add_spin(random, center, off, text);
     }
-    add(text, "{'type':'translate','offset':[[0,0,0],[%.17g,%.17g,%.17g]],'clock':'%s'}]}",
-        part(random), part(random), part(random), last);
+    text_add(text, TEXT,
+             "{'type':'translate','offset':[[0,0,0],[%.17g,%.17g,%.17g]],'clock':'%s'}]}",
+             random_part(random), random_part(random), random_part(random), last);
 }
 
 static void begin(double wide, char *text)
@@ -121,14 +113,6 @@ static double least_gap(const circle *c)
     return fmin(least, least_between(c, last - width, last));
 }
 
-static imp_scene *at_values(const imp_scene *scene, const double *values)
-{
-    imp_error error;
-    imp_scene *at = imp_scene_at(scene, values, &error);
-    ck_assert_msg(at != NULL, "%s", error.text);
-    return at;
-}
-
 /* Looks at points at random values and a random time, from other values and another time. */
 static void check_companions(uint64_t *r, const imp_scene *scene, double wide, double slip,
                              const char *text)
@@ -137,7 +121,7 @@ static void check_companions(uint64_t *r, const imp_scene *scene, double wide, d
         double p[3], lo[3], hi[3], values[2][PARAMETERS];
         for (int j = 0; j < PARAMETERS; ++j)
             for (int k = 0; k < 2; ++k) values[k][j] = wide * suite_end_or_inside(r);
-        values[0][2] = values[1][2] = 0.2 * part(r);
+        values[0][2] = values[1][2] = 0.2 * random_part(r);
         imp_scene *at[2] = {at_values(scene, values[0]), at_values(scene, values[1])};
         circle c = {.scene = at[1],
                     .at = {0, 0, random_bits(r) % imp_scene_piece_count(at[0], 0, 0)}};
@@ -174,9 +158,9 @@ START_TEST(points_have_companions_within_the_slip_at_other_values)
         const double off = n % 3 == 0 ? 0 : random_power(&random, -26, -14);
         const double wide = n % 2 ? 0.02 : 3;
         begin(wide, text);
-        add(text, "%s}],'maps':[", rounds[random_bits(&random) % (ROUNDS - 1)]);
+        text_add(text, TEXT, "%s}],'maps':[", rounds[random_bits(&random) % (ROUNDS - 1)]);
         add_maps(&random, off, "p2", text);
-        add(text, ",{'surfaces':[{'type':'sphere'}]}]}");
+        text_add(text, TEXT, ",{'surfaces':[{'type':'sphere'}]}]}");
         imp_scene *scene = scene_of(text);
         const double lo[3] = {-wide, -wide, -0.2}, hi[3] = {wide, wide, 0.2}, at[3] = {0, 0, 0};
         const value_box box = {PARAMETERS, lo, hi, at, 0, 1};
@@ -245,11 +229,12 @@ static imp_scene *scene_to_ask(uint64_t *random, char *text)
                                          "'type':'torus','major_radius':0.6,'minor_radius':0.2"};
     const double off = random_bits(random) % 3 == 0 ? random_power(random, -8, -1) : 0;
     begin(random_bits(random) % 2 ? 3 : 0.2, text);
-    add(text, "%s}],'maps':[", rounds[random_bits(random) % ROUNDS]);
+    text_add(text, TEXT, "%s}],'maps':[", rounds[random_bits(random) % ROUNDS]);
     add_maps(random, off, random_bits(random) % 2 ? "p2" : "time", text);
-    add(text, ",{'surfaces':[{%s}],'maps':[{'type':'translate','offset':[[%.17g,%.17g,%.17g]]}]}]}",
-        others[random_bits(random) % 3], 1.3 + 0.5 * part(random), 0.3 * part(random),
-        0.3 * part(random));
+    text_add(text, TEXT,
+             ",{'surfaces':[{%s}],'maps':[{'type':'translate','offset':[[%.17g,%.17g,%.17g]]}]}]}",
+             others[random_bits(random) % 3], 1.3 + 0.5 * random_part(random),
+             0.3 * random_part(random), 0.3 * random_part(random));
     return scene_of(text);
 }
 
@@ -277,19 +262,12 @@ static imp_result solved(const imp_scene *scene, const double *values, double ga
 
 static double distance_at(const imp_scene *scene, const double *values)
 {
-    imp_error error;
     imp_scene *at = at_values(scene, values);
-    imp_clearance near = {.struct_size = sizeof near};
     imp_options options = imp_options_default(at);
     options.max_pairs = 2000;
-    const imp_clearance_options asked = imp_clearance_options_default();
-    imp_query *query = imp_clearance_new(at, &options, &asked, &error);
-    ck_assert_msg(query != NULL, "%s", error.text);
-    ck_assert_int_eq(imp_query_step(query, 0, &error), IMP_SUCCESS);
-    ck_assert_int_eq(imp_clearance_get(query, 0, &near, &error), IMP_SUCCESS);
-    imp_query_free(query);
+    const double upper = query_clearance(at, &options, NULL).upper;
     imp_scene_free(at);
-    return near.upper;
+    return upper;
 }
 
 #define GAMMA 0.01

@@ -25,14 +25,12 @@ static void close_registry(void) { imp_registry_free(registry); }
 
 /* --- Scenes ----------------------------------------------------------------------------------- */
 
-static double part(uint64_t *random) { return random_between(random, -1, 1); }
-
 /* A closed prism or drum of flat sides about z, its radii drawn anew at each height, as a mesh. */
 static void add_drum(uint64_t *random, double radius, char text[TEXT])
 {
     const int sides = 3 + (int)(random_bits(random) % 6), rows = 2 + (int)(random_bits(random) % 2);
     char *at = text;
-    const double turn = 3 * part(random);
+    const double turn = 3 * random_part(random);
     at += sprintf(at, "mesh points=[");
     for (int k = 0; k < rows; ++k) {
         const double r = radius * (k == 0 ? 1 : random_between(random, 0.6, 1));
@@ -75,23 +73,23 @@ static void add_turn(uint64_t *random, char *text)
 {
     const bool is_off = random_bits(random) % 4 == 0;
     sprintf(text + strlen(text), " ! rotate axis=%.17g,0,1 center=%.17g,0,0 angle=%.17g,%.17g",
-            is_off ? 0.2 * part(random) : 0, is_off ? 0.2 * part(random) : 0, part(random),
-            random_power(random, -3, 7) * (random_bits(random) % 2 ? 1 : -1));
+            is_off ? 0.2 * random_part(random) : 0, is_off ? 0.2 * random_part(random) : 0,
+            random_part(random), random_power(random, -3, 7) * (random_bits(random) % 2 ? 1 : -1));
 }
 
 static void add_shift(uint64_t *random, char *text)
 {
     const bool is_along = random_bits(random) % 4 != 0;
     sprintf(text + strlen(text), " ! translate offset=[[0,0,0],[%.17g,%.17g,%.17g],[0,0,%.17g]]",
-            is_along ? 0 : 0.2 * part(random), is_along ? 0 : 0.2 * part(random),
-            0.4 * part(random), 0.2 * part(random));
+            is_along ? 0 : 0.2 * random_part(random), is_along ? 0 : 0.2 * random_part(random),
+            0.4 * random_part(random), 0.2 * random_part(random));
 }
 
 static void add_place(uint64_t *random, char *text)
 {
     sprintf(text + strlen(text),
             " ! rotate axis=%.17g,%.17g,1 angle=%.17g ! translate offset=[[%.17g,2,3]]",
-            part(random), part(random), 3 * part(random), part(random));
+            random_part(random), random_part(random), 3 * random_part(random), random_part(random));
 }
 
 /* Puts both shapes so that z points anywhere, nearly; a then turns about that direction and slides
@@ -99,18 +97,19 @@ static void add_place(uint64_t *random, char *text)
 static void add_turned_motion(uint64_t *random, char a[TEXT], char b[TEXT])
 {
     const vec3 z = {{0, 0, 1}};
-    vec3 n = {{part(random), part(random), part(random)}}, v = {{part(random), part(random), 0}};
+    vec3 n = {{random_part(random), random_part(random), random_part(random)}},
+         v = {{random_part(random), random_part(random), 0}};
     n = vec3_scale(n, 1 / vec3_norm(n));
     const vec3 to = vec3_cross(z, n);
     for (int k = 0; k < 2; ++k)
         sprintf((k == 0 ? a : b) + strlen(k == 0 ? a : b),
                 " ! rotate axis=%.17g,%.17g,0 angle=%.17g ! translate offset=[[%.17g,0,0]]",
-                to.x[0], to.x[1], acos(n.x[2]), k * 0.2 * part(random));
+                to.x[0], to.x[1], acos(n.x[2]), k * 0.2 * random_part(random));
     v = vec3_sub(v, vec3_scale(n, vec3_dot(v, n)));
-    if (random_bits(random) % 4 == 0) v = vec3_add(v, vec3_scale(n, 0.1 * part(random)));
+    if (random_bits(random) % 4 == 0) v = vec3_add(v, vec3_scale(n, 0.1 * random_part(random)));
     sprintf(a + strlen(a),
             " ! rotate axis=%.17g,%.17g,%.17g rate=%.17g ! translate velocity=%.17g,%.17g,%.17g",
-            n.x[0], n.x[1], n.x[2], 3 * part(random), v.x[0], v.x[1], v.x[2]);
+            n.x[0], n.x[1], n.x[2], 3 * random_part(random), v.x[0], v.x[1], v.x[2]);
 }
 
 static void draw_scene(uint64_t *random, char a[TEXT], char b[TEXT])
@@ -236,7 +235,7 @@ static void try_scene(double share, uint64_t *random, tally *sum)
         if (found[k] < least) least = found[k];
     }
     const double near = random_bits(random) % 2 ? least : found[random_bits(random) % MOMENTS];
-    const double gamma_clear = near * (1 + random_power(random, -20, -1) * part(random));
+    const double gamma_clear = near * (1 + random_power(random, -20, -1) * random_part(random));
     distance_outcome seen = distance_outcome_none(&y.times);
     ck_assert_int_eq(piece_sides_cut(&y.of, 1, gamma_clear, &seen, &error), IMP_SUCCESS);
     sum->apart += seen.is_apart;
@@ -311,7 +310,7 @@ static void judge_course(const trial *y, const surface_course *c, const imp_regi
                          const imp_model bare[3], uint64_t *random)
 {
     for (int k = 0; k < POINTS; ++k) {
-        const double w = part(random), t = times->c[2] + w * times->d[2];
+        const double w = random_part(random), t = times->c[2] + w * times->d[2];
         double from[3], now[3], frame[2][4][3], x[3], z[3], off = c->off + 1e-11;
         for (int i = 0; i < 3; ++i) from[i] = random_between(random, bare[i].lo, bare[i].hi);
         frame_at(y->s[0], t, frame[0]);
@@ -422,10 +421,10 @@ static void judge_shadow(const trial *y, int side, uint64_t *random, int hoops[2
     for (size_t k = 0; k < corners[!side].count && asked; ++k)
         hoops[of.course.spins] += corners[!side].of[k].is_hoop;
     for (int k = 0; k < NORMALS && asked; ++k) {
-        vec3 n = {{part(random), part(random), part(random)}};
+        vec3 n = {{random_part(random), random_part(random), random_part(random)}};
         n = vec3_scale(n, 1 / vec3_norm(n));
         for (int j = 0; j < POINTS; ++j) {
-            const double w = part(random);
+            const double w = random_part(random);
             const double above =
                 above_shadow(y, &of, &shadow, n, of.times.c[2] + w * of.times.d[2], w, random);
             *near += above < 1e-2 * shadow.reach;
@@ -459,7 +458,7 @@ enum { FAR_SCENES = 40, STAR_RAYS = 7 };
  * line, and a ball is inside. What is along that line must not be mistaken for what is across. */
 static void draw_far_star(uint64_t *random, char a[TEXT], char b[TEXT])
 {
-    vec3 axis = {{part(random), part(random), 1}};
+    vec3 axis = {{random_part(random), random_part(random), 1}};
     axis = vec3_scale(axis, 1 / vec3_norm(axis));
     const double far = random_power(random, 12, 17), radius = random_between(random, 0.2, 1);
     vec3 side = vec3_cross(axis, (vec3){{1, 0, 0}});

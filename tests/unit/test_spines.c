@@ -3,7 +3,6 @@
 #include <config.h>
 
 #include <impinge/model.h>
-#include <stdarg.h>
 #include <string.h>
 
 #include "core/bounds/spine.h"
@@ -75,36 +74,27 @@ static const char *const others[] = {
     "torus major_radius=@ minor_radius=0.3",
     "point position=@,0,0.1"};
 
-static double part(uint64_t *random) { return random_between(random, -1, 1); }
-
-__attribute__((format(printf, 2, 3))) static void add(char text[TEXT], const char *format, ...)
-{
-    va_list of;
-    va_start(of, format);
-    vsnprintf(text + strlen(text), TEXT - strlen(text), format, of);
-    va_end(of);
-}
-
 /* Turns about its own line, about another one, and shifts, each or none; or a table of poses. */
 static void add_motion(uint64_t *random, char text[TEXT])
 {
     if (random_bits(random) % 8 == 0) {
-        const double angle = 0.7 * part(random), x = 0.3 * part(random);
-        add(text,
-            " ! keyframes times=0,0.5,1 positions=[[0,0,0],[%.17g,0,0],[%.17g,0,0.1]] "
-            "rotations=[[1,0,0,0],[%.17g,0,0,%.17g],[%.17g,0,0,%.17g]]",
-            x, 2 * x, cos(angle), sin(angle), cos(2 * angle), sin(2 * angle));
+        const double angle = 0.7 * random_part(random), x = 0.3 * random_part(random);
+        text_add(text, TEXT,
+                 " ! keyframes times=0,0.5,1 positions=[[0,0,0],[%.17g,0,0],[%.17g,0,0.1]] "
+                 "rotations=[[1,0,0,0],[%.17g,0,0,%.17g],[%.17g,0,0,%.17g]]",
+                 x, 2 * x, cos(angle), sin(angle), cos(2 * angle), sin(2 * angle));
         return;
     }
     if (random_bits(random) % 4)
-        add(text, " ! rotate axis=%.17g,0,1 rate=%.17g", random_bits(random) % 4 ? 0 : part(random),
-            random_power(random, -2, 6) * part(random));
+        text_add(text, TEXT, " ! rotate axis=%.17g,0,1 rate=%.17g",
+                 random_bits(random) % 4 ? 0 : random_part(random),
+                 random_power(random, -2, 6) * random_part(random));
     if (random_bits(random) % 4 == 0)
-        add(text, " ! translate offset=[[%.17g,0,0],[0,%.17g,0]]", 0.2 * part(random),
-            0.2 * part(random));
+        text_add(text, TEXT, " ! translate offset=[[%.17g,0,0],[0,%.17g,0]]",
+                 0.2 * random_part(random), 0.2 * random_part(random));
     if (random_bits(random) % 4 == 0)
-        add(text, " ! rotate axis=%.17g,0,1 rate=%.17g",
-            random_bits(random) % 2 ? 0 : 0.2 * part(random), 4 * part(random));
+        text_add(text, TEXT, " ! rotate axis=%.17g,0,1 rate=%.17g",
+                 random_bits(random) % 2 ? 0 : 0.2 * random_part(random), 4 * random_part(random));
 }
 
 static void draw_other(uint64_t *random, char text[TEXT])
@@ -113,9 +103,9 @@ static void draw_other(uint64_t *random, char text[TEXT])
     const double far = random_between(random, 1, 3);
     for (; *from != '\0'; ++from) {
         if (*from == '@')
-            add(text, "%.17g", far);
+            text_add(text, TEXT, "%.17g", far);
         else
-            add(text, "%c", *from);
+            text_add(text, TEXT, "%c", *from);
     }
 }
 
@@ -128,8 +118,10 @@ static void trial_begin(trial *y, uint64_t *random)
     add_motion(random, y->text[0]);
     draw_other(random, y->text[1]);
     if (random_bits(random) % 2)
-        add(place, " ! rotate axis=%.17g,%.17g,1 angle=%.17g ! translate offset=[[%.17g,2,3]]",
-            part(random), part(random), 3 * part(random), part(random));
+        text_add(place, TEXT,
+                 " ! rotate axis=%.17g,%.17g,1 angle=%.17g ! translate offset=[[%.17g,2,3]]",
+                 random_part(random), random_part(random), 3 * random_part(random),
+                 random_part(random));
     for (int k = 0; k < 2; ++k) strcat(y->text[k], place);
     trial_open(y, registry, t0, t1);
 }
@@ -253,7 +245,7 @@ START_TEST(spines_are_where_their_models_say)
         const bool known = spine_choose(y.s[0], &y.times, &of) &&
                            spine_node(&of, y.times.lo, y.times.hi, x, &made);
         for (int k = 0; k < 8 && known; ++k, ++judged) {
-            const double s = part(&random), w = part(&random);
+            const double s = random_part(&random), w = random_part(&random);
             const double z = made.region.c[1] + s * made.region.d[1];
             const double t = made.region.c[2] + w * made.region.d[2];
             double at[3];

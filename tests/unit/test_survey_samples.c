@@ -12,11 +12,9 @@
 /* The least distance of points of both bodies at some values and a time, on a grid. */
 static double sampled(const imp_scene *scene, const double *values, double t)
 {
-    imp_error error;
     double point[2][GRID * GRID * 8][3], least = INFINITY;
     size_t count[2] = {0, 0};
-    imp_scene *at = imp_scene_at(scene, values, &error);
-    ck_assert_msg(at != NULL, "%s", error.text);
+    imp_scene *at = at_values(scene, values);
     for (size_t body = 0; body < 2; ++body)
         for (size_t k = 0; k < imp_scene_piece_count(at, body, 0) && k < 8; ++k) {
             double lo[3], hi[3];
@@ -41,22 +39,15 @@ static double sampled(const imp_scene *scene, const double *values, double t)
 /* The least distance of both bodies at some values during the times of a box, from above. */
 static double searched(const imp_scene *scene, const double *values, const told_box *box)
 {
-    imp_error error;
-    imp_clearance near = {.struct_size = sizeof near};
-    imp_scene *at = imp_scene_at(scene, values, &error);
-    ck_assert_msg(at != NULL, "%s", error.text);
+    imp_scene *at = at_values(scene, values);
     imp_options options = imp_options_default(at);
     options.t_start = box->in.time[0], options.t_end = box->in.time[1];
     options.max_pairs = 3000;
     imp_clearance_options asked = imp_clearance_options_default();
     asked.tolerance = 0.01;
-    imp_query *query = imp_clearance_new(at, &options, &asked, &error);
-    ck_assert_msg(query != NULL, "%s", error.text);
-    ck_assert_int_eq(imp_query_step(query, 0, &error), IMP_SUCCESS);
-    ck_assert_int_eq(imp_clearance_get(query, 0, &near, &error), IMP_SUCCESS);
-    imp_query_free(query);
+    const double upper = query_clearance(at, &options, &asked).upper;
     imp_scene_free(at);
-    return near.upper;
+    return upper;
 }
 
 enum { SEARCH_EVERY = 8 }; /* boxes of which one is searched, too */

@@ -5,93 +5,28 @@
 #include <stdio.h>
 #include <string.h>
 
-#include "plugins/expression/text_form.h"
 #include "plugins/expression/turned_surface.h"
-#include "tests/support/suite.h"
+#include "tests/support/formula_surface.h"
 
 /* Formulas that are found to be surfaces of revolution: distances from them against dense samples,
  * and points that rotations have moved; and formulas that are none. */
 
-enum { TEXTS = 48, POINTS = 8, GRID = 32 };
-
-typedef struct turned_text {
-    char text[3][256];
-    double lo[2], hi[2];
-} turned_text;
+enum { TEXTS = 48, POINTS = 8 };
 
 typedef struct kit {
-    expression_program *program, *section;
+    formula_surface of;
     turned_surface turned;
     bool is_turned;
-    double lo[2], hi[2];
 } kit;
 
-static kit kit_of(const turned_text *of)
+static kit kit_of(const formula_text *of)
 {
-    static const char *const names[] = {"u", "v", "t"};
-    const char *const text[3] = {of->text[0], of->text[1], of->text[2]};
-    imp_model whole[3];
-    for (int j = 0; j < 3; ++j) {
-        whole[j] = imp_unbounded(1u << j);
-        if (j < 2) whole[j].lo = of->lo[j], whole[j].hi = of->hi[j];
-    }
-    const expression_scope scope = {.variable = names, .whole = whole, .variable_count = 3};
-    kit k;
-    expression_error error;
-    text_form form;
-    const imp_status status =
-        expression_compile_form(&scope, text, &k.program, &form, &k.section, &error);
-    ck_assert_msg(status == IMP_STATUS_OK, "%s | %s | %s: %s", text[0], text[1], text[2],
-                  error.message);
-    memcpy(k.lo, of->lo, sizeof k.lo);
-    memcpy(k.hi, of->hi, sizeof k.hi);
-    k.is_turned = form.kind == TEXT_TURNED;
-    k.turned.form = form.turned;
-    k.turned.section = k.section;
-    if (k.is_turned) turned_surface_begin(&k.turned, k.lo, k.hi);
+    kit k = {.of = formula_surface_of(of)};
+    k.is_turned = k.of.form.kind == TEXT_TURNED;
+    k.turned.form = k.of.form.turned;
+    k.turned.section = k.of.section;
+    if (k.is_turned) turned_surface_begin(&k.turned, k.of.lo, k.of.hi);
     return k;
-}
-
-static void kit_free(kit *k)
-{
-    expression_free(k->program);
-    expression_free(k->section);
-}
-
-/* --- The nearest point ------------------------------------------------------------------------ */
-
-static double apart(const kit *k, const double p[3], const double x[3])
-{
-    double y[3], sum = 0;
-    ck_assert_int_eq(expression_point(k->program, p, y, NULL), IMP_STATUS_OK);
-    for (int i = 0; i < 3; ++i) sum += (x[i] - y[i]) * (x[i] - y[i]);
-    return sqrt(sum);
-}
-
-/* A grid, then steps along u and v, halved where none comes nearer. */
-static double nearest(const kit *k, const double x[3])
-{
-    double best[3] = {0, 0, 0}, least = INFINITY;
-    for (int i = 0; i <= GRID; ++i)
-        for (int j = 0; j <= GRID; ++j) {
-            const double p[3] = {k->lo[0] + (k->hi[0] - k->lo[0]) * i / GRID,
-                                 k->lo[1] + (k->hi[1] - k->lo[1]) * j / GRID, 0};
-            const double now = apart(k, p, x);
-            if (now < least) least = now, memcpy(best, p, sizeof best);
-        }
-    for (double step = 1.0 / GRID; step > 0x1p-34;) {
-        const double before = least;
-        for (int way = 0; way < 4; ++way) {
-            double p[3] = {best[0], best[1], 0};
-            const int j = way / 2;
-            p[j] += (way % 2 ? -step : step) * (k->hi[j] - k->lo[j]);
-            p[j] = p[j] < k->lo[j] ? k->lo[j] : p[j] > k->hi[j] ? k->hi[j] : p[j];
-            const double now = apart(k, p, x);
-            if (now < least) least = now, memcpy(best, p, sizeof best);
-        }
-        if (!(least < before)) step *= 0.5;
-    }
-    return least;
 }
 
 /* The least distance of x from the circle of p, which is whole: by samples, then by steps that are
@@ -100,11 +35,11 @@ static double from_circle(const kit *k, const double p[3], const double x[3])
 {
     enum { SAMPLES = 64 };
     const int j = k->turned.form.around;
-    const double lo = k->lo[j], hi = k->hi[j];
+    const double lo = k->of.lo[j], hi = k->of.hi[j];
     double at[3] = {p[0], p[1], 0}, best = lo, least = INFINITY;
     for (int n = 0; n < SAMPLES; ++n) {
         at[j] = lo + (hi - lo) * n / SAMPLES;
-        const double now = apart(k, at, x);
+        const double now = formula_apart(&k->of, at, x);
         if (now < least) least = now, best = at[j];
     }
     for (double step = (hi - lo) / SAMPLES; step > 1e-14;) {
@@ -113,7 +48,7 @@ static double from_circle(const kit *k, const double p[3], const double x[3])
             at[j] = best + way * step;
             if (at[j] < lo) at[j] += hi - lo;
             if (at[j] > hi) at[j] -= hi - lo;
-            const double now = apart(k, at, x);
+            const double now = formula_apart(&k->of, at, x);
             if (now < least) least = now, best = at[j];
         }
         if (!(least < before)) step *= 0.5;
@@ -155,7 +90,7 @@ static void draw_profile(uint64_t *random, const char *v, char radius[120], char
     }
 }
 
-static turned_text draw_text(uint64_t *random)
+static formula_text draw_text(uint64_t *random)
 {
     const int axis = (int)(random_bits(random) % 3), around = (int)(random_bits(random) % 2);
     const int i = (axis + 1) % 3, j = (axis + 2) % 3;
@@ -163,7 +98,7 @@ static turned_text draw_text(uint64_t *random)
     const bool in_turns = random_bits(random) % 2, is_swapped = random_bits(random) % 2;
     const char *const wave[2] = {is_swapped ? "-sin" : "cos", is_swapped ? "cos" : "sin"};
     char radius[120], height[120];
-    turned_text of;
+    formula_text of;
     draw_profile(random, v, radius, height);
     snprintf(of.text[i], sizeof of.text[i], "%s*%s(%s%s)+1.25", radius, wave[0],
              in_turns ? "2*pi*" : "", u);
@@ -208,16 +143,16 @@ static void judge(const kit *k, uint64_t *random, double factor, tally *of)
     const bool is_closed = (symmetry.is_closed & IMP_SYMMETRY_CLOSED) != 0;
     of->closed += is_closed;
     for (int n = 0; n < POINTS; ++n) {
-        const double p[3] = {random_between(random, k->lo[0], k->hi[0]),
-                             random_between(random, k->lo[1], k->hi[1]), 0};
+        const double p[3] = {random_between(random, k->of.lo[0], k->of.hi[0]),
+                             random_between(random, k->of.lo[1], k->of.hi[1]), 0};
         double x[3];
-        ck_assert_int_eq(expression_point(k->program, p, x, NULL), IMP_STATUS_OK);
+        ck_assert_int_eq(expression_point(k->of.program, p, x, NULL), IMP_STATUS_OK);
         if (is_closed) turn(&symmetry, random_between(random, -4, 4), x);
         const double left = is_closed ? from_circle(k, p, x) : 0;
         if (left > of->off) of->off = left;
         const double off = random_power(random, -16, 1);
         for (int i = 0; i < 3; ++i) x[i] += off * random_between(random, -1, 1);
-        const double claim = factor * claimed(k, x), most = nearest(k, x);
+        const double claim = factor * claimed(k, x), most = formula_nearest(&k->of, x, 0x1p-34);
         if (claim / most > of->sharpest) of->sharpest = claim / most;
         of->refuted += claim > most * (1 + 1e-9) + 1e-12;
         of->judged += 1;
@@ -231,13 +166,13 @@ static tally try_all(double factor)
     tally of = {.judged = 0};
     const int times = suite_times_at_least(TEXTS);
     for (int n = 0; n < times && (factor == 1 || of.refuted == 0); ++n) {
-        const turned_text text = draw_text(&random);
+        const formula_text text = draw_text(&random);
         kit k = kit_of(&text);
         ck_assert_msg(k.is_turned, "%s | %s | %s", text.text[0], text.text[1], text.text[2]);
         of.turned += 1;
         of.round += turned_surface_is_round(&k.turned);
         judge(&k, &random, factor, &of);
-        kit_free(&k);
+        formula_surface_free(&k.of);
     }
     return of;
 }
@@ -260,7 +195,7 @@ END_TEST
 /* --- What is known, and what is not ----------------------------------------------------------- */
 
 typedef struct known {
-    turned_text of;
+    formula_text of;
     round_kind kind;
     bool is_closed, is_nearly;
 } known;
@@ -299,27 +234,28 @@ START_TEST(profiles_and_turns_are_known)
                           ((is & IMP_SYMMETRY_NEARLY) != 0) == row[n].is_nearly,
                       "text %zu: kind %d, closed %x: %s", n, (int)k.turned.round.kind, is,
                       row[n].of.text[0]);
-        kit_free(&k);
+        formula_surface_free(&k.of);
     }
 }
 END_TEST
 
 START_TEST(what_is_not_turned_is_not_taken_for_it)
 {
-    static const turned_text none[] = {{{"(2+v)*cos(u)", "(2.01+v)*sin(u)", "v"}, UPTO(TURN, 1)},
-                                       {{"(2+v)*cos(u)", "(2+v)*sin(2*u)", "v"}, UPTO(TURN, 1)},
-                                       {{"(2+v)*cos(u)", "(2+v)*cos(u)", "v"}, UPTO(TURN, 1)},
-                                       {{"(2+v+t)*cos(u)", "(2+v+t)*sin(u)", "v"}, UPTO(TURN, 1)},
-                                       {{"(2+u)*cos(u)", "(2+u)*sin(u)", "v"}, UPTO(TURN, 1)},
-                                       {{"(2+v)*cos(u)", "(2+v)*sin(u)", "v+0.1*u"}, UPTO(TURN, 1)},
-                                       {{"(2+v)*cos(u)", "(2+v)*sin(u)", "v+t"}, UPTO(TURN, 1)},
-                                       {{"(2+v)*cos(u+v)", "(2+v)*sin(u+v)", "v"}, UPTO(TURN, 1)},
-                                       {{"(2+v)*cos(u)+v", "(2+v)*sin(u)", "v"}, UPTO(TURN, 1)},
-                                       {{"(2+v)*cos(u+t)", "(2+v)*sin(u+t)", "v"}, UPTO(TURN, 1)}};
+    static const formula_text none[] = {
+        {{"(2+v)*cos(u)", "(2.01+v)*sin(u)", "v"}, UPTO(TURN, 1)},
+        {{"(2+v)*cos(u)", "(2+v)*sin(2*u)", "v"}, UPTO(TURN, 1)},
+        {{"(2+v)*cos(u)", "(2+v)*cos(u)", "v"}, UPTO(TURN, 1)},
+        {{"(2+v+t)*cos(u)", "(2+v+t)*sin(u)", "v"}, UPTO(TURN, 1)},
+        {{"(2+u)*cos(u)", "(2+u)*sin(u)", "v"}, UPTO(TURN, 1)},
+        {{"(2+v)*cos(u)", "(2+v)*sin(u)", "v+0.1*u"}, UPTO(TURN, 1)},
+        {{"(2+v)*cos(u)", "(2+v)*sin(u)", "v+t"}, UPTO(TURN, 1)},
+        {{"(2+v)*cos(u+v)", "(2+v)*sin(u+v)", "v"}, UPTO(TURN, 1)},
+        {{"(2+v)*cos(u)+v", "(2+v)*sin(u)", "v"}, UPTO(TURN, 1)},
+        {{"(2+v)*cos(u+t)", "(2+v)*sin(u+t)", "v"}, UPTO(TURN, 1)}};
     for (size_t n = 0; n < sizeof none / sizeof *none; ++n) {
         kit k = kit_of(&none[n]);
         ck_assert_msg(!k.is_turned, "text %zu: %s", n, none[n].text[0]);
-        kit_free(&k);
+        formula_surface_free(&k.of);
     }
 }
 END_TEST
